@@ -1,11 +1,13 @@
-//! What a cable did: counts, so that cost can be read without a clock, and the same on every machine.
+//! What a cable did: counts, so that cost can be read without a clock, and the same on every
+//! machine.
 
 use crate::effect::EffectCounts;
 use crate::term::ReasonCounts;
 use core::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
-/// Counts since the cable was built or [`reset`](Diagnostics::reset). Plain data; two runs of the same cable count the same.
+/// Counts since the cable was built or [`reset`](Diagnostics::reset). Plain data; two runs of the
+/// same cable count the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Diagnostics {
@@ -33,7 +35,8 @@ pub struct Diagnostics {
     pub bending_evaluations: u64,
     /// Point loads evaluated.
     pub load_evaluations: u64,
-    /// Elements whose load was compared with the [limits](crate::Cable::set_strength) of the cable; zero for a cable without limits.
+    /// Elements whose load was compared with the [limits](crate::Cable::set_strength) of the cable;
+    /// zero for a cable without limits.
     #[serde(default)]
     pub load_readings: u64,
     /// Steps of the discrete gradient whose velocities were scaled down to keep its energy law.
@@ -45,7 +48,8 @@ pub struct Diagnostics {
     /// Steps of the discrete gradient in which centre lines of cables went through each other.
     #[serde(default)]
     pub crossed_steps: u64,
-    /// Steps of the discrete gradient whose friction did not settle on the normal forces of the step itself.
+    /// Steps of the discrete gradient whose friction did not settle on the normal forces of the
+    /// step itself.
     #[serde(default)]
     pub lagging_steps: u64,
     /// Newton iterations of the discrete gradient beyond the first one of a step, by the reason for
@@ -55,12 +59,12 @@ pub struct Diagnostics {
     /// Divisions of its steps, by the reason for them.
     #[serde(default)]
     pub divisions_for: ReasonCounts,
-    /// [Warnings](crate::Cable::warnings) that came up in host steps, each kind once; zero for a cable that is not
-    /// [watched](crate::Cable::set_watched).
+    /// [Warnings](crate::Cable::warnings) that came up in host steps, each kind once; zero for a
+    /// cable that is not [watched](crate::Cable::set_watched).
     #[serde(default)]
     pub warnings: u64,
-    /// Elements for which each effect was evaluated; zero for effects that are absent. The work of a step takes two powers more, not
-    /// counted.
+    /// Elements for which each effect was evaluated; zero for effects that are absent. The work of
+    /// a step takes two powers more, not counted.
     #[serde(default)]
     pub effects: EffectCounts,
 }

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! `(a, a')` with the rules of differentiation: sums, products `(ab)' = a'b + ab'`, quotients, roots, |a|. A kernel over [`Real`] with
-//! (x, 1) for one argument and (y, 0) for the others returns its value and its exact partial derivative.
+//! `(a, a')` with the rules of differentiation: sums, products `(ab)' = a'b + ab'`, quotients,
+//! roots, |a|. A kernel over [`Real`] with (x, 1) for one argument and (y, 0) for the others
+//! returns its value and its exact partial derivative.
 //!
 //! # Validity
 //!

@@ -1,4 +1,5 @@
-//! Cable mechanics after the absolute nodal coordinate formulation (ANCF): elements, integrators, statics.
+//! Cable mechanics after the absolute nodal coordinate formulation (ANCF): elements, integrators,
+//! statics.
 //!
 //! The crate knows no physics engine, no ECS and no files. All numbers are `f64` in SI units.
 //!
@@ -34,9 +35,10 @@
 //! | [`coupling`] | what couplings to engines need of a cable, and its matrices |
 //! | [`island`] | cables and rigid bodies pinned together, as one system, for couplings to physics engines |
 //!
-//! Public for tests and benchmarks of the numerics, and for the matrices that [`Cable`] returns; no rope needs them, and they may change
-//! in any release: [`element`] (one element as a function of six Gram numbers), [`axial`] and [`bending`] (one file per rule of the elastic
-//! forces), [`linalg`] (the block-tridiagonal solver).
+//! Public for tests and benchmarks of the numerics, and for the matrices that [`Cable`] returns; no
+//! rope needs them, and they may change in any release: [`element`] (one element as a function of
+//! six Gram numbers), [`axial`] and [`bending`] (one file per rule of the elastic forces),
+//! [`linalg`] (the block-tridiagonal solver).
 
 mod at;
 

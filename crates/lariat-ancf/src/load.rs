@@ -2,14 +2,16 @@
 //!
 //! # Equation
 //!
-//! Force f at arc length s: generalised force `N(s)^T f`. Moment m on the section: the angular velocity of the tangent t = r'(s) is
-//! `t x dt/|t|^2`, so the virtual work `m . (t x dt)/|t|^2` gives the generalised force `(m x t)/|t|^2` on the slope at s.
+//! Force f at arc length s: generalised force `N(s)^T f`. Moment m on the section: the angular
+//! velocity of the tangent t = r'(s) is `t x dt/|t|^2`, so the virtual work `m . (t x dt)/|t|^2`
+//! gives the generalised force `(m x t)/|t|^2` on the slope at s.
 //!
 //! # Validity
 //!
-//! The element has no twist, so the component of m along t does no work. A moment about a fixed axis is conservative only while the cable
-//! stays in the plane normal to it; its tangent is made symmetric, which does not change the solution and slows Newton's iteration when
-//! the cable leaves that plane.
+//! The element has no twist, so the component of m along t does no work. A moment about a fixed
+//! axis is conservative only while the cable stays in the plane normal to it; its tangent is made
+//! symmetric, which does not change the solution and slows Newton's iteration when the cable leaves
+//! that plane.
 //!
 //! # References
 //!
@@ -30,7 +32,8 @@ pub struct PointLoad {
     pub moment: Vector3<f64>,
     /// Time from zero to full load in s; 0 = at once.
     pub ramp: f64,
-    /// Time at which the ramp begins, in s. [`Cable::add_load`](crate::Cable::add_load) sets it to the cable's time.
+    /// Time at which the ramp begins, in s. [`Cable::add_load`](crate::Cable::add_load) sets it to
+    /// the cable's time.
     #[serde(default)]
     pub start: f64,
 }
@@ -59,7 +62,8 @@ impl PointLoad {
     }
 }
 
-/// Generalised force `(m x t)/|t|^2` of a moment on the slope t, and the symmetric part of its derivative.
+/// Generalised force `(m x t)/|t|^2` of a moment on the slope t, and the symmetric part of its
+/// derivative.
 pub(crate) fn moment_on_slope(m: &Vector3<f64>, t: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let square = t.norm_squared();
     let cross = m.cross(t);

@@ -1,10 +1,11 @@
 //! Gauss-Legendre quadrature on the unit interval.
 //!
-//! Nodes are the roots of the Legendre polynomial P_n, found by Newton's method from Chebyshev's estimate
-//! (Golub & Welsch 1969 is the alternative for large n; n <= 10 does not need an eigenvalue solver).
-//! An n-point rule integrates polynomials of degree 2n - 1 exactly.
+//! Nodes are the roots of the Legendre polynomial P_n, found by Newton's method from Chebyshev's
+//! estimate (Golub & Welsch 1969 is the alternative for large n; n <= 10 does not need an
+//! eigenvalue solver). An n-point rule integrates polynomials of degree 2n - 1 exactly.
 
-/// Abscissae on `[0, 1]` and weights (their sum is 1) of the `points`-point Gauss-Legendre rule, ascending.
+/// Abscissae on `[0, 1]` and weights (their sum is 1) of the `points`-point Gauss-Legendre rule,
+/// ascending.
 pub fn gauss_legendre(points: usize) -> Vec<(f64, f64)> {
     let n = points as f64;
     let mut rule: Vec<(f64, f64)> = (0..points)
@@ -62,7 +63,8 @@ mod tests {
             for degree in 0..2 * points as i32 {
                 assert_abs_diff_eq!(integral(degree), 1.0 / f64::from(degree + 1), epsilon = 2e-15);
             }
-            // error of x^(2n) on [0, 1]: (n!)^4 / ((2n+1) ((2n)!)^2)  (Davis & Rabinowitz 1984, 2.7.12)
+            // error of x^(2n) on [0, 1]: (n!)^4 / ((2n+1) ((2n)!)^2) (Davis & Rabinowitz 1984,
+            // 2.7.12)
             let factorial = |k: usize| (1..=k).map(|v| v as f64).product::<f64>();
             let exact_error = factorial(points).powi(4) / ((2 * points + 1) as f64 * factorial(2 * points).powi(2));
             let error = 1.0 / (2 * points + 1) as f64 - integral(2 * points as i32);

@@ -1,16 +1,19 @@
 //! The number type of the element kernels: one source for `f64` and for lanes of `f64`.
 //!
-//! A kernel written over [`Real`] evaluates one element with `f64` and eight elements with [`fearless_simd::f64x8`], whose width in
-//! registers (SSE2, AVX2, AVX-512, NEON) is chosen at run time.
+//! A kernel written over [`Real`] evaluates one element with `f64` and eight elements with
+//! [`fearless_simd::f64x8`], whose width in registers (SSE2, AVX2, AVX-512, NEON) is chosen at run
+//! time.
 //!
 //! # Validity
 //!
-//! [`Real`] has no fused multiply-add and no horizontal sum, so each lane performs the same IEEE 754 operations in the same order as the
-//! scalar kernel: the kernel chosen at run time changes the speed, never the result.
+//! [`Real`] has no fused multiply-add and no horizontal sum, so each lane performs the same IEEE
+//! 754 operations in the same order as the scalar kernel: the kernel chosen at run time changes the
+//! speed, never the result.
 //!
 //! # Alternatives considered
 //!
-//! Fused multiply-add: faster, and different bits on different machines, which lock-step networking cannot use.
+//! Fused multiply-add: faster, and different bits on different machines, which lock-step networking
+//! cannot use.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fearless_simd::{ExtractToken, Simd, SimdBase, SimdFloat, f64x8, prelude::*};

@@ -9,28 +9,34 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Reel {
-    /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row. What is asked for when a host step begins is reached at its end,
-    /// linearly, if `acceleration` lets it, with any method; a row within it counts from the next host step on, or earlier. Default: no rows, at rest.
+    /// Rate in m/s by time in s, ascending: positive pays out; a rate holds until the next row.
+    /// What is asked for when a host step begins is reached at its end, linearly, if `acceleration`
+    /// lets it, with any method; a row within it counts from the next host step on, or earlier.
+    /// Default: no rows, at rest.
     pub rate: Vec<[f64; 2]>,
-    /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the tension by dv sqrt(EA rho A). With `max_force` it is that of
-    /// the rate that the motor is commanded; a reel that slipped returns to it as fast as the force lets it.
+    /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the
+    /// tension by dv sqrt(EA rho A). With `max_force` it is that of the rate that the motor is
+    /// commanded; a reel that slipped returns to it as fast as the force lets it.
     pub acceleration: f64,
-    /// Largest length of cable in m that can be out: the reel stops there, as softly as `acceleration` says, whatever `max_force`
-    /// is. On a body that moves freely, what is not out rides with it, so it must be given there. Default: no limit.
+    /// Largest length of cable in m that can be out: the reel stops there, as softly as
+    /// `acceleration` says, whatever `max_force` is. On a body that moves freely, what is not out
+    /// rides with it, so it must be given there. Default: no limit.
     pub stock: Option<f64>,
-    /// Largest force of the motor in N: a clutch between the reel and a shaft that turns at the commanded rate. The reel slips where the cable pulls more, and is
-    /// pulled back by this force until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. A force that is lowered
-    /// falls linearly over the next host step, from what the motor pulls. Needs the integrator `discrete-gradient`.
-    /// Default: as strong as it must be.
+    /// Largest force of the motor in N: a clutch between the reel and a shaft that turns at the
+    /// commanded rate. The reel slips where the cable pulls more, and is pulled back by this force
+    /// until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. A force
+    /// that is lowered falls linearly over the next host step, from what the motor pulls. Needs the
+    /// integrator `discrete-gradient`. Default: as strong as it must be.
     pub max_force: Option<f64>,
-    /// Inertia of the wheel over the square of its radius in kg; the stock on a drum is added, if `stock` says how much. It counts
-    /// where the reel slips. Default 0.
+    /// Inertia of the wheel over the square of its radius in kg; the stock on a drum is added, if
+    /// `stock` says how much. It counts where the reel slips. Default 0.
     pub inertia: f64,
     /// How material comes to the eye. Default: from a drum.
     pub feed: Feed,
 }
 
-/// How material comes to the eye of a reel while cable is paid out: the same rope falls at different speeds from each.
+/// How material comes to the eye of a reel while cable is paid out: the same rope falls at
+/// different speeds from each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Feed {
@@ -41,11 +47,11 @@ pub enum Feed {
     Coil,
     /// From a bag in which it lies still, without loss.
     Bag,
-    /// From another cable, over a [`Sheave`](crate::island::Sheave) of the island that steps both. Rate and force are those of the
-    /// sheave; `stock` is not used.
+    /// From another cable, over a [`Sheave`](crate::island::Sheave) of the island that steps both.
+    /// Rate and force are those of the sheave; `stock` is not used.
     Sheave,
-    /// From a [`Drum`](crate::island::Drum) of the island, a body whose spin is the rate; `stock` and `inertia` are what it carries beside its
-    /// own inertia.
+    /// From a [`Drum`](crate::island::Drum) of the island, a body whose spin is the rate; `stock`
+    /// and `inertia` are what it carries beside its own inertia.
     BodyDrum,
 }
 
@@ -130,8 +136,8 @@ struct Wound {
 
 /// The reels in the description of a cable, by end, and the mesh that they wind up.
 ///
-/// Elements are numbered by material: with n elements that came through the eye at the start on balance, the element e of the cable has
-/// the number e - n.
+/// Elements are numbered by material: with n elements that came through the eye at the start on
+/// balance, the element e of the cable has the number e - n.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Reels {
@@ -177,7 +183,8 @@ impl Reels {
         self.at[side as usize] = Some(Wound { reel, stock });
     }
 
-    /// Removes a reel; the element `number` at its eye keeps its present length, and is 0 if the eye is at the start.
+    /// Removes a reel; the element `number` at its eye keeps its present length, and is 0 if the
+    /// eye is at the start.
     pub(crate) fn remove(&mut self, side: Side, number: i64, element: Element) {
         let at = self.reach(number);
         self.mesh[at] = element;
@@ -206,7 +213,8 @@ impl Reels {
         self.mesh.iter().copied().chain(stocks).map(|element| element.length).fold(f64::INFINITY, f64::min)
     }
 
-    /// Extends the mesh by elements of the stocks to the element `number`, and returns its position.
+    /// Extends the mesh by elements of the stocks to the element `number`, and returns its
+    /// position.
     fn reach(&mut self, number: i64) -> usize {
         while number + self.origin < 0 {
             let next = self.element(-self.origin - 1);
@@ -227,7 +235,8 @@ impl Reels {
         self.mesh.splice(at..=at, parts);
     }
 
-    /// Returns the reels of the parts of the cable before and behind a node; `number` is that of the element behind it.
+    /// Returns the reels of the parts of the cable before and behind a node; `number` is that of
+    /// the element behind it.
     pub(crate) fn cut(&self, number: i64) -> [Reels; 2] {
         if self.is_empty() {
             return [Reels::default(), Reels::default()];

@@ -79,7 +79,8 @@ impl Rule {
         Rule { axial, bending }
     }
 
-    /// The paper's G*L*-*T*: Gauss quadrature with `longitudinal` and `transverse` points, 1 to 10 each.
+    /// The paper's G*L*-*T*: Gauss quadrature with `longitudinal` and `transverse` points, 1 to 10
+    /// each.
     ///
     /// # Errors
     /// [`Error::UnknownRule`] if a number of points is out of range.
@@ -90,8 +91,9 @@ impl Rule {
     /// Refuses a pair of rules that leaves modes of deformation without energy.
     ///
     /// # Errors
-    /// [`Error::RankDeficient`] with the reason. [`CableBuilder::allow_rank_deficient`](crate::CableBuilder::allow_rank_deficient)
-    /// builds such a cable all the same.
+    /// [`Error::RankDeficient`] with the reason.
+    /// [`CableBuilder::allow_rank_deficient`](crate::CableBuilder::allow_rank_deficient) builds
+    /// such a cable all the same.
     pub fn check(self) -> Result<(), Error> {
         self.check_points()?;
         self.spare_modes().map_or(Ok(()), |reason| Err(Error::RankDeficient { rule: self.to_string(), reason }))

@@ -2,18 +2,19 @@
 //!
 //! # Equation
 //!
-//! `EA` (N), `EI` (N m^2), `rho A` (kg/m). Round: `A = pi d^2/4`, `I = pi d^4/64`; square: `A = a^2`, `I = a^4/12`; tube: differences of
-//! round ones.
+//! `EA` (N), `EI` (N m^2), `rho A` (kg/m). Round: `A = pi d^2/4`, `I = pi d^4/64`; square: `A =
+//! a^2`, `I = a^4/12`; tube: differences of round ones.
 //!
 //! # Validity
 //!
-//! A homogeneous elastic section. A stranded rope has about half of the solid's EA and far less EI: use [`Section::from_stiffness`] with
-//! measured values.
+//! A homogeneous elastic section. A stranded rope has about half of the solid's EA and far less EI:
+//! use [`Section::from_stiffness`] with measured values.
 
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
 
-/// Axial stiffness, bending stiffness and mass per length of an element; all that mechanics needs of it.
+/// Axial stiffness, bending stiffness and mass per length of an element; all that mechanics needs
+/// of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// Axial stiffness EA in N, > 0.
@@ -22,7 +23,8 @@ pub struct Section {
     pub bending_stiffness: f64,
     /// Mass per unstretched length in kg/m, > 0.
     pub mass_per_length: f64,
-    /// Outer diameter (side, for a square) in m, if a shape was given: for contact, drag and drawing.
+    /// Outer diameter (side, for a square) in m, if a shape was given: for contact, drag and
+    /// drawing.
     pub diameter: Option<f64>,
     /// Area inside the outer outline in m^2, if a shape was given: for buoyancy.
     #[serde(default)]
@@ -114,12 +116,14 @@ impl Section {
         Ok(section)
     }
 
-    /// A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter d in m.
+    /// A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter d in
+    /// m.
     ///
-    /// Mass 4.09e3 d^2 kg/m and metallic area 0.460 d^2 (EN 12385-4, factors W = 0.409 and C = 0.460 of the class), rope modulus
-    /// 1.0e11 Pa on that area (Feyrer, Wire Ropes, 2015, chapter 2: 0.95 to 1.1e11 after bedding). Bending stiffness: wires of 0.046 d that
-    /// slide without friction, EI = 2.06e11 * 0.460 d^2 * (0.046 d)^2/16, the lower bound; friction between wires raises it several
-    /// times.
+    /// Mass 4.09e3 d^2 kg/m and metallic area 0.460 d^2 (EN 12385-4, factors W = 0.409 and C =
+    /// 0.460 of the class), rope modulus 1.0e11 Pa on that area (Feyrer, Wire Ropes, 2015, chapter
+    /// 2: 0.95 to 1.1e11 after bedding). Bending stiffness: wires of 0.046 d that slide without
+    /// friction, EI = 2.06e11 * 0.460 d^2 * (0.046 d)^2/16, the lower bound; friction between wires
+    /// raises it several times.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a diameter that is not positive and finite.

@@ -1,24 +1,25 @@
 //! Vector instructions: the best that the processor has, found at run time.
 //!
-//! Every level runs the same source with the same order of operations and no fused multiply-add, so the choice changes the time
-//! and nothing else: a run is bitwise the same at every level.
+//! Every level runs the same source with the same order of operations and no fused multiply-add, so
+//! the choice changes the time and nothing else: a run is bitwise the same at every level.
 //!
 //! # Alternatives considered
 //!
-//! - A copy of the kernels for SSE4.2 too: its instructions on `f64` are those of SSE2 but for rounding and selection, so it costs time
-//!   to compile and saves none.
-//! - A loop over elements for each bending rule, which is compiled at each level: the rules are chosen within the loop, so that they add
-//!   to the code and do not multiply it.
-//! - Closures and `map` within kernels: the compiler does not inline them into a function of another level, so each call goes through
-//!   memory.
+//! - A copy of the kernels for SSE4.2 too: its instructions on `f64` are those of SSE2 but for
+//!   rounding and selection, so it costs time to compile and saves none.
+//! - A loop over elements for each bending rule, which is compiled at each level: the rules are
+//!   chosen within the loop, so that they add to the code and do not multiply it.
+//! - Closures and `map` within kernels: the compiler does not inline them into a function of
+//!   another level, so each call goes through memory.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 /// Layout: elements evaluated together.
 pub(crate) const LANES: usize = 8;
 
-/// Runs an expression with the instructions of a level: AVX-512, AVX2 or SSE2 on x86-64, with `$simd` bound to its token. An expression
-/// that takes no token has no lanes of its own; AVX-512 would not make it faster, so it is compiled for AVX2 and SSE2.
+/// Runs an expression with the instructions of a level: AVX-512, AVX2 or SSE2 on x86-64, with
+/// `$simd` bound to its token. An expression that takes no token has no lanes of its own; AVX-512
+/// would not make it faster, so it is compiled for AVX2 and SSE2.
 #[cfg(target_arch = "x86_64")]
 macro_rules! dispatch {
     ($level:expr, $simd:ident => $body:expr) => {

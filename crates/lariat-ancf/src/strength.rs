@@ -4,7 +4,8 @@ use crate::error::{Error, require};
 use crate::scales::cable::KNOWN;
 use serde::{Deserialize, Serialize};
 
-/// What a cable withstands; without limits, the default, it does not break. A number converts into a limit of the tension.
+/// What a cable withstands; without limits, the default, it does not break. A number converts into
+/// a limit of the tension.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Strength {
@@ -30,7 +31,8 @@ impl Strength {
         self.tension.is_some() || self.strain.is_some()
     }
 
-    /// Returns the larger share of its limit that tension (N) and strain reach, and which of them it is.
+    /// Returns the larger share of its limit that tension (N) and strain reach, and which of them
+    /// it is.
     pub(crate) fn share(&self, tension: f64, strain: f64) -> (f64, BreakCause) {
         let share = |value: f64, limit: Option<f64>| limit.map_or(f64::NEG_INFINITY, |limit| value / limit);
         let (by_tension, by_strain) = (share(tension, self.tension), share(strain, self.strain));
@@ -112,28 +114,34 @@ impl Default for Load {
 ///
 /// # Equation
 ///
-/// Between three readings x0, x1, x2 of the share of the limit, at equal distances, the load may have come to
+/// Between three readings x0, x1, x2 of the share of the limit, at equal distances, the load may
+/// have come to
 ///
 /// ```text
 /// x1 + max(0, 2 x1 - x0 - x2)
 /// ```
 ///
-/// The parabola through them exceeds x1 by at most an eighth of the last term: that is what steps miss which resolve the oscillation. A load that is
-/// applied at once, in a step that does not, is the jump x1 - x0 with x2 = x1, and doubles at most (dynamic factor 2, a rope without mass and
-/// damping): the term is then the jump. With unequal distances the second difference is that of the longer one.
+/// The parabola through them exceeds x1 by at most an eighth of the last term: that is what steps
+/// miss which resolve the oscillation. A load that is applied at once, in a step that does not, is
+/// the jump x1 - x0 with x2 = x1, and doubles at most (dynamic factor 2, a rope without mass and
+/// damping): the term is then the jump. With unequal distances the second difference is that of the
+/// longer one.
 ///
 /// # References
 ///
 /// Timoshenko & Young 1955, section 1 (suddenly applied load).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LoadRecord {
-    /// The largest since the cable was compared with its limits; its arc length is counted from the material that was at the start at first.
+    /// The largest since the cable was compared with its limits; its arc length is counted from the
+    /// material that was at the start at first.
     worst: Option<Load>,
-    /// Arc length in m on the cable of the material that was at the start at first, when the present host step began.
+    /// Arc length in m on the cable of the material that was at the start at first, when the
+    /// present host step began.
     origin: f64,
     /// Times in s and shares of the last two readings.
     recent: [Option<[f64; 2]>; 2],
-    /// Of a part of a cable that broke: the share that it had then, and the time in s by which the wave of the break has run through it.
+    /// Of a part of a cable that broke: the share that it had then, and the time in s by which the
+    /// wave of the break has run through it.
     #[serde(default)]
     known: Option<[f64; 2]>,
     /// What no reading saw, if that is above the limit.
@@ -157,7 +165,8 @@ impl LoadRecord {
         self.recent[1].is_some_and(|[last, _]| last == time)
     }
 
-    /// Begins a host step of a cable on which the material that was at its start is at `origin` (m).
+    /// Begins a host step of a cable on which the material that was at its start is at `origin`
+    /// (m).
     pub fn begin(&mut self, origin: f64) {
         self.origin = origin;
     }
@@ -179,13 +188,14 @@ impl LoadRecord {
         }
     }
 
-    /// Begins that of a part of a cable that broke, under a load of this share: that is not new until the wave of the break has run through, at
-    /// `until` (s).
+    /// Begins that of a part of a cable that broke, under a load of this share: that is not new
+    /// until the wave of the break has run through, at `until` (s).
     pub fn of_part(share: f64, until: f64) -> Self {
         LoadRecord { known: Some([share, until]), ..LoadRecord::default() }
     }
 
-    /// Returns whether a load is that which a part had when its cable broke, and which the break has not yet relieved.
+    /// Returns whether a load is that which a part had when its cable broke, and which the break
+    /// has not yet relieved.
     pub fn is_known(&self, load: &Load) -> bool {
         self.known.is_some_and(|[share, until]| load.share <= share * (1.0 + KNOWN) && load.time < until)
     }
@@ -219,15 +229,17 @@ pub struct Break {
     pub cause: BreakCause,
     /// Arc length of the break in m, unstretched: the new length of the part before it.
     pub arc_length: f64,
-    /// Largest tension in N since the cable was compared with its limits last; of a cut, the tension at it.
+    /// Largest tension in N since the cable was compared with its limits last; of a cut, the
+    /// tension at it.
     pub tension: f64,
     /// Strain there, stretch over rest stretch less 1.
     pub strain: f64,
     /// Time in s of that load, which may lie within the last host step; of a cut, that of the cut.
     pub time: f64,
-    /// Strain energy in J of both parts at the break. No more than this, and their weight, is set free as motion.
+    /// Strain energy in J of both parts at the break. No more than this, and their weight, is set
+    /// free as motion.
     pub strain_energy: f64,
-    /// Change of the total energy in J by the edit itself: zero at a node, else what a node placed there
-    /// [adds](crate::coupling::Coupling::inserted_energy).
+    /// Change of the total energy in J by the edit itself: zero at a node, else what a node placed
+    /// there [adds](crate::coupling::Coupling::inserted_energy).
     pub inserted_energy: f64,
 }

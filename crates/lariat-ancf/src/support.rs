@@ -2,15 +2,17 @@
 //!
 //! # Equation
 //!
-//! The position and the slope vector of a node are free, prescribed as a cubic polynomial of time, or (the slope) held to a direction with
-//! its length free. A prescribed coordinate leaves the equations: rows and columns of the step matrix are projected,
-//! `A -> P A P + (I - P)`, P the projector on the free directions.
+//! The position and the slope vector of a node are free, prescribed as a cubic polynomial of time,
+//! or (the slope) held to a direction with its length free. A prescribed coordinate leaves the
+//! equations: rows and columns of the step matrix are projected, `A -> P A P + (I - P)`, P the
+//! projector on the free directions.
 //!
 //! # Alternatives considered
 //!
-//! - A clamp that fixes the slope *vector*: it also fixes the stretch at the node, which is then wrong by the tension over EA; a clamp
-//!   holds the direction alone.
-//! - Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix without benefit).
+//! - A clamp that fixes the slope *vector*: it also fixes the stretch at the node, which is then
+//!   wrong by the tension over EA; a clamp holds the direction alone.
+//! - Penalty springs (they limit the step) and Lagrange multipliers (an indefinite matrix without
+//!   benefit).
 
 use crate::error::{Error, require};
 use crate::integrate::Stage;
@@ -37,7 +39,8 @@ impl Motion {
         Motion { start, coefficients: [x, velocity, Vector3::zeros(), Vector3::zeros()] }
     }
 
-    /// The cubic from `(x0, v0)` at `start` to `(x1, v1)` a time `duration` later (Hermite); `duration` > 0.
+    /// The cubic from `(x0, v0)` at `start` to `(x1, v1)` a time `duration` later (Hermite);
+    /// `duration` > 0.
     pub fn hermite(
         start: f64,
         duration: f64,
@@ -76,7 +79,8 @@ pub enum SlopeSupport {
     Direction(Vector3<f64>),
     /// The whole vector is prescribed.
     Prescribed(Motion),
-    /// Its direction follows a body of an [`island`](crate::island), and is this unit vector now; its length is free. Set by
+    /// Its direction follows a body of an [`island`](crate::island), and is this unit vector now;
+    /// its length is free. Set by
     /// [`Cable::attach_clamped`](crate::coupling::Coupling::attach_clamped).
     Attached(Vector3<f64>),
 }
@@ -95,7 +99,8 @@ pub struct Support {
     pub position: Option<Motion>,
     /// What holds the slope.
     pub slope: SlopeSupport,
-    /// The position follows a body of an [`island`](crate::island); set by [`Cable::attach`](crate::coupling::Coupling::attach).
+    /// The position follows a body of an [`island`](crate::island); set by
+    /// [`Cable::attach`](crate::coupling::Coupling::attach).
     #[serde(default)]
     pub attached: bool,
 }
@@ -163,7 +168,8 @@ impl Support {
         }
     }
 
-    /// Makes the held components of an implicit stage come out as prescribed: `base + c2 k` and `velocity_base + rate c2 k`.
+    /// Makes the held components of an implicit stage come out as prescribed: `base + c2 k` and
+    /// `velocity_base + rate c2 k`.
     pub(crate) fn prescribe_stage(&self, stage: &Stage, base: &mut [f64], velocity_base: &mut [f64], k: &mut [f64]) {
         self.prescribe(stage.time, base, velocity_base);
         let held = self.acceleration(stage.time);
@@ -175,7 +181,8 @@ impl Support {
         }
     }
 
-    /// Overwrites the held components of nodal coordinates `q` and velocities `v` by their values at `time`.
+    /// Overwrites the held components of nodal coordinates `q` and velocities `v` by their values
+    /// at `time`.
     pub(crate) fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]) {
         if let SlopeSupport::Direction(_) = self.slope {
             self.project_slope(&mut q[3..6]);

@@ -1,8 +1,8 @@
 //! Conversion between Rapier's numbers (glam, [`Real`]) and those of the mechanics (nalgebra,
 //! `f64`).
 //!
-//! Functions that take a point or vector take either ([`Point`](lariat_ancf::Point)), or an array; a
-//! reading becomes Rapier's vector by [`ToRapier`]:
+//! Functions that take a point or vector take either ([`Point`](lariat_ancf::Point)), or an array;
+//! a reading becomes Rapier's vector by [`ToRapier`]:
 //!
 //! ```
 //! use lariat_rapier::convert::ToRapier;

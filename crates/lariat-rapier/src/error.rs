@@ -12,8 +12,8 @@ pub enum Error {
     /// An error of the mechanics of a cable.
     #[error(transparent)]
     Cable(#[from] lariat_ancf::Error),
-    /// Cables that cannot step with the bodies attached to them: they stay as they are, and all other
-    /// cables and bodies go on.
+    /// Cables that cannot step with the bodies attached to them: they stay as they are, and all
+    /// other cables and bodies go on.
     #[error("cables {cables:?} cannot step at t = {time} s: {cause}")]
     StepRefused {
         /// Names of the cables of the island.
@@ -32,10 +32,12 @@ pub enum Error {
     /// The handle of a junction that is not, or no longer, in the set.
     #[error("no junction {0:?} in this set")]
     NoJunction(JunctionHandle),
-    /// A drum that is not a dynamic body: the rate of a reel is set by [`lariat_ancf::Cable::set_reel_rate`].
+    /// A drum that is not a dynamic body: the rate of a reel is set by
+    /// [`lariat_ancf::Cable::set_reel_rate`].
     #[error("body {0:?} is not dynamic and cannot be a drum: give the reel the rate of its spin instead")]
     DrumBody(RigidBodyHandle),
-    /// A drum that is a link of a multibody, or joined to a dynamic body: their common inertia is not known to it.
+    /// A drum that is a link of a multibody, or joined to a dynamic body: their common inertia is
+    /// not known to it.
     #[error(
         "drum {0:?} is joined to a dynamic body or a link of a multibody, which is not coupled to its cable: join it by an impulse joint to a fixed or \
         kinematic body, or lock its other axes"
@@ -85,8 +87,8 @@ pub enum Error {
         /// The node.
         node: usize,
     },
-    /// A link of a multibody that moved otherwise than predicted, so that the cable has lost it: one that is thrown
-    /// against another body or its limits.
+    /// A link of a multibody that moved otherwise than predicted, so that the cable has lost it:
+    /// one that is thrown against another body or its limits.
     #[error(
         "cable {cable:?} has lost body {body:?}, a link of a multibody that Rapier moved otherwise than predicted: \
          {gap:.3e} m apart; use impulse joints"

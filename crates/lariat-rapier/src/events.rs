@@ -31,15 +31,17 @@ pub enum Event {
         /// Why, where and under which load.
         how: Break,
     },
-    /// A cable and the anchor of an attachment, which had met, came apart: by more than 2e-3 of the length of the cable at the end of a host step.
-    /// Once for each attachment; take shorter steps, or find what holds the body back.
+    /// A cable and the anchor of an attachment, which had met, came apart: by more than 2e-3 of the
+    /// length of the cable at the end of a host step. Once for each attachment; take shorter steps,
+    /// or find what holds the body back.
     GapOpened {
         /// The attachment.
         attachment: AttachmentHandle,
         /// The gap.
         gap: OpenGap,
     },
-    /// A body on joints did not move as predicted for half a second: the forces of its cables are not to be trusted. Once for each attachment; the warning
+    /// A body on joints did not move as predicted for half a second: the forces of its cables are
+    /// not to be trusted. Once for each attachment; the warning
     /// [`Unsettled`](crate::Warning::Unsettled) says what to do.
     Unsettled {
         /// The attachment.
@@ -67,21 +69,23 @@ pub enum Event {
         /// Arc length in m where it was last touched.
         arc_length: f64,
     },
-    /// A cable with contact is in a collider that it cannot touch, one with a shape of the program's own. Said once for
-    /// each.
+    /// A cable with contact is in a collider that it cannot touch, one with a shape of the
+    /// program's own. Said once for each.
     ContactIgnored {
         /// The cable.
         cable: CableHandle,
         /// The collider.
         collider: ColliderHandle,
     },
-    /// Accuracy was reduced: the [budget](crate::Budget) of the host step was spent, or a cable with error control holds a body in contact that is so
-    /// light that [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) do not resolve its vibration: it is then integrated as in
-    /// fidelity game.
+    /// Accuracy was reduced: the [budget](crate::Budget) of the host step was spent, or a cable
+    /// with error control holds a body in contact that is so light that
+    /// [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) do not resolve its
+    /// vibration: it is then integrated as in fidelity game.
     Degraded(CableHandle),
     /// A cable woke up.
     Awake(CableHandle),
-    /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Each kind once for each cable.
+    /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Each kind
+    /// once for each cable.
     Warning {
         /// The cable.
         cable: CableHandle,

@@ -61,7 +61,8 @@
 //!
 //! Fixed, kinematic and disabled bodies prescribe the motion of their cable's end, and rotate a
 //! clamp. Cables and bodies that come to rest fall asleep and wake up together; the forces of the
-//! cables on a sleeping body stand in the motors of its ledger, for it may wake within Rapier's step.
+//! cables on a sleeping body stand in the motors of its ledger, for it may wake within Rapier's
+//! step.
 //!
 //! *Order.* Integrators keep their accelerations from step to step, so generalised-alpha and Verlet
 //! keep order 2; an implicit method keeps the order that it has on a cable alone.
@@ -71,7 +72,8 @@
 //! ([`Attachment`]).
 //!
 //! # Validity
-//! - See the limits of [`CableSet`]: one number of Rapier steps for the whole world, and what is predicted of mechanisms.
+//! - See the limits of [`CableSet`]: one number of Rapier steps for the whole world, and what is
+//!   predicted of mechanisms.
 //! - An undamped cable oscillates for ever, and so does the force at its end: a rope that was slack
 //!   and bowed has a tension ripple of 1 % when it is taut, with any integrator. Give it damping
 //!   ([`lariat_ancf::Damping`]), or an integrator that damps.
@@ -86,18 +88,19 @@
 //!   is some per cent short of the energy that the cable gains: the work in the jumps is known
 //!   approximately.
 //! - Where a line on a body that joints hold snaps taut, a host step is divided into up to
-//!   [`Settings::max_rapier_steps`] Rapier steps. Random booms with loads on ropes, at 30 to 240 Hz, are then within
-//!   5 % of their ways with fidelity engineering (tests, seeds). What fidelity game takes of the energy there is told
-//!   ([`lariat_ancf::Warning::EnergyLost`], by [`CableSet::warnings`] alone: only a whole run can judge it).
-//! - A kick that a taut cable answers within a step loses energy in fidelity game: up to half of it,
-//!   of two balls on a cable whose vibration has several periods in a step of 1/60 s. Momentum and
-//!   angular momentum stay.
+//!   [`Settings::max_rapier_steps`] Rapier steps. Random booms with loads on ropes, at 30 to 240
+//!   Hz, are then within 5 % of their ways with fidelity engineering (tests, seeds). What fidelity
+//!   game takes of the energy there is told ([`lariat_ancf::Warning::EnergyLost`], by
+//!   [`CableSet::warnings`] alone: only a whole run can judge it).
+//! - A kick that a taut cable answers within a step loses energy in fidelity game: up to half of
+//!   it, of two balls on a cable whose vibration has several periods in a step of 1/60 s. Momentum
+//!   and angular momentum stay.
 //! - Damping of Rapier's bodies acts at the end of a step; with it, a body's accelerations are not
 //!   kept.
 //! - Kinematic bodies that turn or accelerate by poses, and bodies on joints, move with Rapier's
-//!   precision: in single precision in jumps of 2e-7 m at 2 m, 2 N of a steel bar of 1 m and 1 cm^2,
-//!   and 1 + T/h times that if its retardation time is T. A warning tells where that matters. The
-//!   package `lariat-rapier-f64`, of the same source, has none of this.
+//!   precision: in single precision in jumps of 2e-7 m at 2 m, 2 N of a steel bar of 1 m and 1
+//!   cm^2, and 1 + T/h times that if its retardation time is T. A warning tells where that matters.
+//!   The package `lariat-rapier-f64`, of the same source, has none of this.
 //!
 //! # References
 //! - Each file of the source names the equations it solves, their sources and their limits.

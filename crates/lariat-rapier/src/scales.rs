@@ -1,4 +1,5 @@
-//! The tuned numbers of this crate: thresholds, tolerances and factors, each with the reason of its value.
+//! The tuned numbers of this crate: thresholds, tolerances and factors, each with the reason of its
+//! value.
 //!
 //! | a reason | says |
 //! |---|---|

@@ -88,15 +88,16 @@ impl CableBuilder {
         self
     }
 
-    /// Start shape: a polyline through these points, in m. At least two. The cable is smooth and starts without strain but an even stretch, so corners are rounded, within 0.6
-    /// elements; not those on a node that is held, clamped or asked for by [`node_at`](Self::node_at).
+    /// Start shape: a polyline through these points, in m. At least two. The cable is smooth and
+    /// starts without strain but an even stretch, so corners are rounded, within 0.6 elements; not
+    /// those on a node that is held, clamped or asked for by [`node_at`](Self::node_at).
     pub fn points<P: Into<Point>>(mut self, points: impl IntoIterator<Item = P>) -> Self {
         self.points = points.into_iter().map(|p| p.into().0).collect();
         self
     }
 
-    /// Unstretched length in m. Default: the length of the polyline. Longer: the cable starts slack, in arcs that sag along
-    /// gravity; shorter: it starts stretched.
+    /// Unstretched length in m. Default: the length of the polyline. Longer: the cable starts
+    /// slack, in arcs that sag along gravity; shorter: it starts stretched.
     pub fn length(mut self, length: f64) -> Self {
         self.length = Some(length);
         self
@@ -113,7 +114,8 @@ impl CableBuilder {
         self.section_from(0.0, section)
     }
 
-    /// Section from an arc length (m) on, up to the next one given: for cables made of pieces. A node is placed there.
+    /// Section from an arc length (m) on, up to the next one given: for cables made of pieces. A
+    /// node is placed there.
     pub fn section_from(mut self, arc_length: f64, section: Section) -> Self {
         self.sections.push((arc_length, section));
         self
@@ -125,7 +127,8 @@ impl CableBuilder {
         self
     }
 
-    /// Force strategy. Default: [`Fidelity::rule`] of the fidelity that is chosen as integrator, `projected-3` without one.
+    /// Force strategy. Default: [`Fidelity::rule`] of the fidelity that is chosen as integrator,
+    /// `projected-3` without one.
     pub fn rule(mut self, rule: Rule) -> Self {
         self.rule = Some(rule);
         self
@@ -137,15 +140,17 @@ impl CableBuilder {
         self
     }
 
-    /// Time integrator: an [`Integrator`](crate::Integrator), or a [`Fidelity`] that chooses one by the cable's
-    /// frequencies. Default: [`Fidelity::Engineering`] for a cable by itself; in a set of cables beside Rapier, the set's.
+    /// Time integrator: an [`Integrator`](crate::Integrator), or a [`Fidelity`] that chooses one by
+    /// the cable's frequencies. Default: [`Fidelity::Engineering`] for a cable by itself; in a set
+    /// of cables beside Rapier, the set's.
     pub fn integrator(mut self, integrator: impl Into<Fidelity>) -> Self {
         self.integrator = Some(integrator.into());
         self
     }
 
-    /// Time integrator of a fidelity. Default: as for [`integrator`](Self::integrator). Its rule is that of the cable unless another is
-    /// [chosen](Self::rule); its number of elements is a recommendation: [`Fidelity::elements`].
+    /// Time integrator of a fidelity. Default: as for [`integrator`](Self::integrator). Its rule is
+    /// that of the cable unless another is [chosen](Self::rule); its number of elements is a
+    /// recommendation: [`Fidelity::elements`].
     pub fn fidelity(self, fidelity: Fidelity) -> Self {
         self.integrator(fidelity)
     }
@@ -174,7 +179,8 @@ impl CableBuilder {
         self
     }
 
-    /// Holds the position and the direction of the tangent of a point where it starts; a node is placed there.
+    /// Holds the position and the direction of the tangent of a point where it starts; a node is
+    /// placed there.
     pub fn clamp(mut self, at: impl Into<At>) -> Self {
         self.holds.push((at.into(), Hold::Clamp));
         self
@@ -199,8 +205,8 @@ impl CableBuilder {
         self
     }
 
-    /// Internal damping of a kind of rope: its percent of critical at the lowest axial mode of the cable, and at bending in ten half
-    /// waves; see [`RopeKind`]. Default: no damping.
+    /// Internal damping of a kind of rope: its percent of critical at the lowest axial mode of the
+    /// cable, and at bending in ten half waves; see [`RopeKind`]. Default: no damping.
     pub fn damped_as(mut self, kind: RopeKind) -> Self {
         self.damped_as = Some(kind);
         self
@@ -215,10 +221,11 @@ impl CableBuilder {
     /// Builds the cable.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number that is out of range or not finite; [`Error::TooFewPoints`],
-    /// [`Error::CoincidentPoints`], [`Error::ElementCount`] or [`Error::NoSection`] for what is missing;
-    /// [`Error::RankDeficient`] for a rule with spare modes; [`Error::OutOfRange`] for an arc length that is not on the
-    /// cable, [`Error::NodeBeforeMesh`] for a node number; and as [`Cable::set_effects`].
+    /// [`Error::InvalidValue`] for a number that is out of range or not finite;
+    /// [`Error::TooFewPoints`], [`Error::CoincidentPoints`], [`Error::ElementCount`] or
+    /// [`Error::NoSection`] for what is missing; [`Error::RankDeficient`] for a rule with spare
+    /// modes; [`Error::OutOfRange`] for an arc length that is not on the cable,
+    /// [`Error::NodeBeforeMesh`] for a node number; and as [`Cable::set_effects`].
     pub fn build(self) -> Result<Cable, Error> {
         let name = self.name.clone();
         self.build_named().map_err(|error| error.of_cable(&name))
@@ -338,7 +345,8 @@ impl CableBuilder {
 }
 
 impl CableBuilder {
-    /// Returns what of the nodes at arc lengths `s` (m) stays as drawn: ends, and nodes that are held or asked for.
+    /// Returns what of the nodes at arc lengths `s` (m) stays as drawn: ends, and nodes that are
+    /// held or asked for.
     fn kept(&self, s: &[f64], arc_length: impl Fn(At) -> Result<f64, Error>) -> Result<Vec<Kept>, Error> {
         let length = s[s.len() - 1];
         let mut kept = vec![Kept::default(); s.len()];
@@ -355,7 +363,8 @@ impl CableBuilder {
     }
 }
 
-/// Arc lengths of the nodes: all breaks, and between them elements of about equal length, `elements` or a few more in all.
+/// Arc lengths of the nodes: all breaks, and between them elements of about equal length,
+/// `elements` or a few more in all.
 fn mesh(breaks: &mut Vec<f64>, length: f64, elements: usize) -> Vec<f64> {
     breaks.sort_by(f64::total_cmp);
     breaks.dedup_by(|a, b| *a - *b <= 1e-9 * length);

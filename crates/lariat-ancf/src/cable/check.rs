@@ -4,8 +4,8 @@ use crate::error::Error;
 use crate::integrate::OneStep;
 use crate::model::Model;
 
-/// Checks that a cable has an implicit method where an effect or a reel needs one, the discrete gradient for contact, and with a reel a method by
-/// which its account of energy closes.
+/// Checks that a cable has an implicit method where an effect or a reel needs one, the discrete
+/// gradient for contact, and with a reel a method by which its account of energy closes.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
     if model.effects.contact.is_some() && !method.uses_discrete_gradients() {
         return Err(Error::ContactMethod { cable: model.name.clone(), method: method.name() });

@@ -12,12 +12,14 @@ impl Cable {
         &self.model.obstacles.0
     }
 
-    /// Sets what the cable can touch from the next step on, in place of the obstacles it had; it touches them if it has the effect
-    /// [`Contact`](crate::Contact). Cheap enough for every step, and allocates only for more obstacles than ever before. Obstacles are no part of a
-    /// snapshot or of a serialised cable, whose contacts know them by their keys.
+    /// Sets what the cable can touch from the next step on, in place of the obstacles it had; it
+    /// touches them if it has the effect [`Contact`](crate::Contact). Cheap enough for every step,
+    /// and allocates only for more obstacles than ever before. Obstacles are no part of a snapshot
+    /// or of a serialised cable, whose contacts know them by their keys.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::ObstacleKey`] for a key that two share; the obstacles are then as before.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::ObstacleKey`] for a key that two
+    /// share; the obstacles are then as before.
     pub fn set_obstacles(&mut self, obstacles: impl IntoIterator<Item = Obstacle>) -> Result<(), Error> {
         let own = &mut self.model.obstacles.0;
         let before = own.len();
@@ -70,7 +72,8 @@ impl Cable {
         memory.contacts.iter().map(|contact| contact.energy).chain(pairs).sum()
     }
 
-    /// Returns the contacts with other cables and with itself at the end of the last step. A contact of two cables is with the one of the lower key.
+    /// Returns the contacts with other cables and with itself at the end of the last step. A
+    /// contact of two cables is with the one of the lower key.
     pub fn cable_contacts(&self) -> impl Iterator<Item = PairTouch> {
         let now = self.snapshot.passed_at_start();
         self.snapshot.state.memory.pairs.iter().map(move |PairMemory { contact, arcs, passed }| PairTouch {

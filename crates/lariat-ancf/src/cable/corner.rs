@@ -1,13 +1,15 @@
 //! Corners of the drawn shape.
 //!
-//! Of those on nodes that are held or asked for: others are rounded by [`unstrained`](super::unstrained). A cable is smooth at its nodes, so one at a corner of the drawn polyline has the mean direction of both sides, and the elements beside
-//! it are bent. Where the cable is parted there, at a sheave, the parts need not be smooth together: each begins with the slope of its own
-//! side, as drawn.
+//! Of those on nodes that are held or asked for: others are rounded by
+//! [`unstrained`](super::unstrained). A cable is smooth at its nodes, so one at a corner of the
+//! drawn polyline has the mean direction of both sides, and the elements beside it are bent. Where
+//! the cable is parted there, at a sheave, the parts need not be smooth together: each begins with
+//! the slope of its own side, as drawn.
 //!
 //! # Alternatives considered
 //!
-//! The slope of least strain energy: a part that has moved since would jump, and one of a single element between two corners would be bent
-//! in an arc.
+//! The slope of least strain energy: a part that has moved since would jump, and one of a single
+//! element between two corners would be bent in an arc.
 
 use super::Cable;
 use super::layout::Laid;

@@ -19,15 +19,17 @@ impl Cable {
         &self.snapshot.work
     }
 
-    /// Replaces all effects from the next step on. Positions and velocities stay as they are. Not meant for every step, because it builds
-    /// tables and factors the mass matrix. A cable with the default integrator gets that of the fidelity `game` with [`Contact`].
+    /// Replaces all effects from the next step on. Positions and velocities stay as they are. Not
+    /// meant for every step, because it builds tables and factors the mass matrix. A cable with the
+    /// default integrator gets that of the fidelity `game` with [`Contact`].
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect that needs a diameter, an area or
-    /// a bending rule that the cable does not have, [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
-    /// [`Error::WrongCount`] for samples of a flow that are not one per node, [`Error::ExplicitDamping`] for damping with an explicit
-    /// integrator, [`Error::ContactMethod`] for contact with another method than `discrete-gradient`.
-    /// The cable is then as before.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect
+    /// that needs a diameter, an area or a bending rule that the cable does not have,
+    /// [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
+    /// [`Error::WrongCount`] for samples of a flow that are not one per node,
+    /// [`Error::ExplicitDamping`] for damping with an explicit integrator, [`Error::ContactMethod`]
+    /// for contact with another method than `discrete-gradient`. The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         let mut integrator = self.integrator();
         if effects.contact.is_some() && self.default_integrator {
@@ -55,8 +57,8 @@ impl Cable {
         self.model.force_densities.iter()
     }
 
-    /// Attaches a force per length of your own; see [`ForceDensity`]. After a cable was read back from a file, attach its functions again
-    /// in the same order.
+    /// Attaches a force per length of your own; see [`ForceDensity`]. After a cable was read back
+    /// from a file, attach its functions again in the same order.
     ///
     /// ```
     /// use lariat_ancf::{Cable, CablePoint, ForceDensity, Section, Vector3};
@@ -84,7 +86,8 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::StepFailed`] if the mass matrix cannot be factored, [`Error::NotWithReel`] for a cable with a reel.
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored, [`Error::NotWithReel`] for a
+    /// cable with a reel.
     pub fn add_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
         let mut model = self.model.clone();
         model.force_densities.attach(force);
@@ -117,10 +120,12 @@ impl Cable {
         }
     }
 
-    /// Samples a flow of your own at the nodes, valid until the next call: for wind zones, gusts, computed currents. Call it before every
-    /// step, or as often as the flow changes; `field` returns the velocity in m/s at a position (m), for the middle of the time until the
-    /// next call if it changes in time. The samples are added to the drag's [`Flow`], linear between nodes. Allocates at the
-    /// first call only; samples that do not differ from the last ones cost nothing.
+    /// Samples a flow of your own at the nodes, valid until the next call: for wind zones, gusts,
+    /// computed currents. Call it before every step, or as often as the flow changes; `field`
+    /// returns the velocity in m/s at a position (m), for the middle of the time until the next
+    /// call if it changes in time. The samples are added to the drag's [`Flow`], linear between
+    /// nodes. Allocates at the first call only; samples that do not differ from the last ones cost
+    /// nothing.
     ///
     /// ```
     /// # use lariat_ancf::{Cable, Drag, Flow, Section, Vector3};
@@ -136,8 +141,9 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::NotWithReel`] for one with a reel, [`Error::InvalidValue`] for a velocity
-    /// that is not finite; the samples are then as before.
+    /// [`Error::MissingForEffect`] for a cable without drag, [`Error::NotWithReel`] for one with a
+    /// reel, [`Error::InvalidValue`] for a velocity that is not finite; the samples are then as
+    /// before.
     pub fn sample_flow(&mut self, mut field: impl FnMut(Vector3<f64>) -> Vector3<f64>) -> Result<(), Error> {
         if self.has_reel() {
             return Err(Error::NotWithReel { cable: self.name().to_string(), what: "a sampled flow" });

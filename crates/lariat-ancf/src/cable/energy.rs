@@ -74,7 +74,8 @@ impl Cable {
     pub fn momentum(&self) -> Momentum {
         let p = self.generalised_momentum();
         let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
-        // q = a + W x q is a rigid motion of (r, t): its conjugate momenta are sums of p over r, and of q x p over all
+        // q = a + W x q is a rigid motion of (r, t): its conjugate momenta are sums of p over r,
+        // and of q x p over all
         let mut momentum = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
         for (p, q) in p.chunks_exact(6).zip(self.positions().chunks_exact(6)) {
             momentum.linear += vector(&p[..3]);

@@ -1,8 +1,9 @@
 //! Where the nodes of a new cable lie.
 //!
-//! Nodes are at given arc lengths of the unstretched cable. Drawn between points that are as far apart as the cable is long,
-//! or farther, the cable follows the polyline, stretched evenly. If it is longer than the polyline, each segment becomes an
-//! arc of a circle of the right length, sagging along gravity, so that a slack cable starts unstrained. Corners between segments are
+//! Nodes are at given arc lengths of the unstretched cable. Drawn between points that are as far
+//! apart as the cable is long, or farther, the cable follows the polyline, stretched evenly. If it
+//! is longer than the polyline, each segment becomes an arc of a circle of the right length,
+//! sagging along gravity, so that a slack cable starts unstrained. Corners between segments are
 //! rounded by [`unstrained`](super::unstrained).
 
 use nalgebra::Vector3;
@@ -16,7 +17,8 @@ pub(crate) struct Laid {
     pub corner: Option<[Vector3<f64>; 2]>,
 }
 
-/// Positions and slopes at the arc lengths `s` (ascending, from 0 to the unstretched length) of a cable through `points`.
+/// Positions and slopes at the arc lengths `s` (ascending, from 0 to the unstretched length) of a
+/// cable through `points`.
 pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector3<f64>) -> Vec<Laid> {
     let length = s[s.len() - 1];
     let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
@@ -51,8 +53,8 @@ pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector
         .collect()
 }
 
-/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an arc of a circle towards
-/// `sag` if that is not zero, else straight.
+/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an
+/// arc of a circle towards `sag` if that is not zero, else straight.
 fn segment(a: Vector3<f64>, b: Vector3<f64>, arc: f64, x: f64, sag: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let chord = b - a;
     let straight = (a + x * chord, chord / arc);

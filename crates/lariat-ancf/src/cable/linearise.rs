@@ -69,10 +69,12 @@ impl Cable {
         project_matrix(&self.model, matrix);
     }
 
-    /// Returns the angular frequencies in rad/s of small motions about the present state, supports in place, ascending:
-    /// `det(K - omega^2 M) = 0`. 0 for a mode of zero or negative stiffness (buckling). A dense eigenproblem, reduced by Cholesky's factors
-    /// (Golub & Van Loan 2013, section 8.7): for tens or hundreds of nodes. [`damping_at_mode`](crate::coupling::Linearisation::damping_at_mode) damps one of them
-    /// by a given ratio.
+    /// Returns the angular frequencies in rad/s of small motions about the present state, supports
+    /// in place, ascending: `det(K - omega^2 M) = 0`. 0 for a mode of zero or negative stiffness
+    /// (buckling). A dense eigenproblem, reduced by Cholesky's factors (Golub & Van Loan 2013,
+    /// section 8.7): for tens or hundreds of nodes.
+    /// [`damping_at_mode`](crate::coupling::Linearisation::damping_at_mode) damps one of them by a
+    /// given ratio.
     pub fn natural_frequencies(&mut self) -> Vec<f64> {
         let held_at = 10.0 * self.frequency_bound() * self.frequency_bound();
         let mut held = BlockTridiagonal::zeros(self.nodes());

@@ -28,8 +28,8 @@ impl Cable {
     /// Adds a point load; a ramp begins now.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers that are not finite,
-    /// [`Error::NotWithReel`] for a load on the element at the eye of a reel.
+    /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers
+    /// that are not finite, [`Error::NotWithReel`] for a load on the element at the eye of a reel.
     pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
         self.check_arc_length(load.arc_length)?;
         require_finite("force (N)", &load.force)
@@ -45,7 +45,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Replaces all point loads. A load that does not change keeps the time at which its ramp began; the ramps of others begin now.
+    /// Replaces all point loads. A load that does not change keeps the time at which its ramp
+    /// began; the ramps of others begin now.
     ///
     /// # Errors
     /// As [`add_load`](Self::add_load); the cable is then as before.

@@ -1,31 +1,36 @@
-//! What a cable says about its own mesh: an indicator of the error of position, and the jump of the tension between elements.
+//! What a cable says about its own mesh: an indicator of the error of position, and the jump of the
+//! tension between elements.
 //!
 //! # Equation
 //!
-//! The third derivative of a cubic is constant, `r''' = 12 (r_i - r_j)/h^3 + 6 (t_i + t_j)/h^2`, and its jump at a node is `h r''''` to
-//! the leading order. The indicator is `eta = max h^3 |[[r''']]|/96`, h the longer element at the node: four times the error of cubic
-//! Hermite interpolation, `h^4 r''''/384`. On a circle of curvature kappa it is `h^4 kappa^3/96`.
+//! The third derivative of a cubic is constant, `r''' = 12 (r_i - r_j)/h^3 + 6 (t_i + t_j)/h^2`,
+//! and its jump at a node is `h r''''` to the leading order. The indicator is `eta = max
+//! h^3 |[[r''']]|/96`, h the longer element at the node: four times the error of cubic Hermite
+//! interpolation, `h^4 r''''/384`. On a circle of curvature kappa it is `h^4 kappa^3/96`.
 //!
-//! Nodes with a support, an attached body, a point load or a change of section are left out, because r''' jumps there in the exact solution,
-//! too. An element between two such nodes or ends of the cable has no node that judges it; for it the angle between its end slopes
-//! is read.
+//! Nodes with a support, an attached body, a point load or a change of section are left out,
+//! because r''' jumps there in the exact solution, too. An element between two such nodes or ends
+//! of the cable has no node that judges it; for it the angle between its end slopes is read.
 //!
 //! # Validity
 //!
-//! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for cantilevers, arcs, catenaries and clamped
-//! boundary layers (`tests/mesh_indicator.rs`), and up to ten times too large for a stiff catenary, five for a shallow one of four elements; near the limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
+//! In statics the indicator is within 0.25 to 4.1 of the largest error of position, for
+//! cantilevers, arcs, catenaries and clamped boundary layers (`tests/mesh_indicator.rs`), and up to
+//! ten times too large for a stiff catenary, five for a shallow one of four elements; near the
+//! limit point of a column it is up to 20 times too small. In dynamics it is no bound: waves
 //! accumulate errors which it does not see, and it is blind to axial waves.
 //!
 //! # References
 //!
-//! Error of Hermite interpolation: Prenter 1975, section 3.3. Jumps as indicators: Babuska and Rheinboldt 1978. The factor 96 was measured
-//! against fine meshes.
+//! Error of Hermite interpolation: Prenter 1975, section 3.3. Jumps as indicators: Babuska and
+//! Rheinboldt 1978. The factor 96 was measured against fine meshes.
 //!
 //! # Alternatives considered
 //!
 //! - Jumps of the curvature: zero on circles, and superconvergent on uniform meshes only.
 //! - Recovery of the curvature (Zienkiewicz and Zhu): no relation to the error of position.
-//! - One Newton step on the divided mesh: costs a factorisation, and the raw strain of the coarse shape appears as a load.
+//! - One Newton step on the divided mesh: costs a factorisation, and the raw strain of the coarse
+//!   shape appears as a load.
 
 use super::Cable;
 use crate::element::axial::projected;
@@ -40,7 +45,8 @@ use serde::{Deserialize, Serialize};
 pub struct MeshIndicator {
     /// Estimate of the largest error of position in m; 0 if no node judges.
     pub position: f64,
-    /// Largest angle in rad between the end slopes of an element that no node judges; 0 if there is none.
+    /// Largest angle in rad between the end slopes of an element that no node judges; 0 if there is
+    /// none.
     pub turn: f64,
 }
 
@@ -104,8 +110,8 @@ impl Cable {
         self.model.supports.iter().any(|(node, _)| 0 < *node && *node < self.elements().len())
     }
 
-    /// Returns the elastic tension that is the largest share of EA, read at both ends of every element: the share, the tension in N, and
-    /// EA in N there.
+    /// Returns the elastic tension that is the largest share of EA, read at both ends of every
+    /// element: the share, the tension in N, and EA in N there.
     pub(crate) fn largest_strain(&self) -> (f64, f64, f64) {
         let (q, mut largest, mut s) = (self.positions(), (0.0, 0.0, 0.0), 0.0);
         let rest = self.effects().rest_shape.as_ref();
@@ -142,8 +148,8 @@ impl Cable {
         combine(q, e, &[12.0, 6.0 * h, -12.0, 6.0 * h])
     }
 
-    /// Returns the largest h^3 |[[r''']]|/96 in m at the nodes that judge, h^3 r''' being given by `third`; calls `visit` as
-    /// [`visit_elements`](Self::visit_elements) does.
+    /// Returns the largest h^3 |[[r''']]|/96 in m at the nodes that judge, h^3 r''' being given by
+    /// `third`; calls `visit` as [`visit_elements`](Self::visit_elements) does.
     fn largest_jump(&self, third: impl Fn(usize) -> Vector3<f64>, mut visit: impl FnMut(usize, bool)) -> f64 {
         let (mut square, mut next) = (0.0f64, None);
         self.visit_elements(|e, judged| {

@@ -58,13 +58,15 @@ pub use snapshot::Snapshot;
 
 /// A cable of ANCF elements with its rule, integrator and state.
 ///
-/// Serialises as its description and state; a deserialised cable continues bitwise the same run. JSON needs `serde_json` with its
-/// feature `float_roundtrip`: without it, numbers are read back changed in the last bit.
+/// Serialises as its description and state; a deserialised cable continues bitwise the same run.
+/// JSON needs `serde_json` with its feature `float_roundtrip`: without it, numbers are read back
+/// changed in the last bit.
 ///
 /// # Validity
 ///
-/// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per unstretched length: a good law within a
-///   few percent of stretch f = 1, too stiff in large extension, too soft in large compression (its stiffness vanishes at f = 0.577).
+/// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per
+///   unstretched length: a good law within a few percent of stretch f = 1, too stiff in large
+///   extension, too soft in large compression (its stiffness vanishes at f = 0.577).
 /// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
 /// - [Contact](crate::contact) with obstacles, fixed or moving as prescribed, and with itself.
 /// - The unstretched length is constant, but for [`cut`](Self::cut) and a [reel](Self::add_reel).
@@ -219,7 +221,8 @@ impl Cable {
     /// Changes the time integrator from the next step on.
     ///
     /// # Errors
-    /// As [`Integrator::checked`]; [`Error::ExplicitDamping`] for an explicit method on a cable with internal damping.
+    /// As [`Integrator::checked`]; [`Error::ExplicitDamping`] for an explicit method on a cable
+    /// with internal damping.
     pub fn set_integrator(&mut self, integrator: Integrator) -> Result<(), Error> {
         check_integrator(&self.model, &integrator.method)?;
         self.integrator = integrator.checked()?;
@@ -263,7 +266,8 @@ impl Cable {
     /// Returns the number of the node at a point.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not on the cable, [`Error::NoNode`] if no node is within 1e-9 of the length.
+    /// [`Error::OutOfRange`] if it is not on the cable, [`Error::NoNode`] if no node is within 1e-9
+    /// of the length.
     pub fn node(&self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
         let (nodes, within) = (|| self.model.node_arc_lengths(), 1e-9 * self.length());

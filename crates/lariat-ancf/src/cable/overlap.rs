@@ -9,8 +9,9 @@ use core::ops::RangeInclusive;
 use nalgebra::Vector3;
 
 impl Cable {
-    /// Returns the largest depth of the centre line between samples in obstacles that no body of an island carries, as a share of its radius: arc length in m and share; and the
-    /// largest angle in rad by which an element turns that touches, as a share of that which a `turn` has.
+    /// Returns the largest depth of the centre line between samples in obstacles that no body of an
+    /// island carries, as a share of its radius: arc length in m and share; and the largest angle
+    /// in rad by which an element turns that touches, as a share of that which a `turn` has.
     pub(crate) fn contact_quality(&self, turn: f64) -> [[f64; 2]; 2] {
         let mut worst = [[0.0; 2]; 2];
         let Some(contact) = self.effects().contact.filter(|_| !self.obstacles().is_empty()) else { return worst };

@@ -7,9 +7,10 @@ use crate::error::Error;
 use std::sync::Arc;
 
 impl Cable {
-    /// Adds an energy of your own of the point at a place, which stays with its material; see [`Potential`]. It acts in motion and in
-    /// statics, on an island and beside contact, and its energy is in [`Energy::potentials`](crate::Energy::potentials). After a cable was
-    /// read back from a file, add its potentials again in the same order: they are where they were.
+    /// Adds an energy of your own of the point at a place, which stays with its material; see
+    /// [`Potential`]. It acts in motion and in statics, on an island and beside contact, and its
+    /// energy is in [`Energy::potentials`](crate::Energy::potentials). After a cable was read back
+    /// from a file, add its potentials again in the same order: they are where they were.
     ///
     /// ```
     /// use lariat_ancf::{At, Cable, Potential, Section, Vector3};
@@ -37,7 +38,8 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a place off the cable, [`Error::NotWithReel`] for one on the element at the eye of a reel.
+    /// [`Error::OutOfRange`] for a place off the cable, [`Error::NotWithReel`] for one on the
+    /// element at the eye of a reel.
     pub fn add_potential(&mut self, at: impl Into<At>, potential: Arc<dyn Potential>) -> Result<(), Error> {
         let (arc_length, passed) = (self.arc_length(at)?, self.snapshot.passed_at_start());
         let before = self.model.potentials.clone();

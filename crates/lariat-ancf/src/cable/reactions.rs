@@ -27,7 +27,8 @@ pub struct Reaction {
 }
 
 impl Cable {
-    /// Returns the reactions of all supports at the present state, by ascending node: force and moment of the support on the cable.
+    /// Returns the reactions of all supports at the present state, by ascending node: force and
+    /// moment of the support on the cable.
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the present state has no finite acceleration.

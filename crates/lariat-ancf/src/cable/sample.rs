@@ -2,16 +2,21 @@
 //!
 //! # Equation
 //!
-//! Tension is `N = EA eps f`, f = |r'|, with eps the Green strain *projected on a linear function inside the element*. Under bending the
-//! raw strain of this element oscillates inside it (a bent cubic cannot be inextensible everywhere); the linear projection is what the
-//! oscillation leaves unchanged, and converges one order faster. Curvature is `|r' x r''|/|r'|^3`, moment `EI kappa` about the binormal;
-//! they are read raw. A rest shape and damping change both: `N = EA (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
+//! Tension is `N = EA eps f`, f = |r'|, with eps the Green strain *projected on a linear function
+//! inside the element*. Under bending the raw strain of this element oscillates inside it (a bent
+//! cubic cannot be inextensible everywhere); the linear projection is what the oscillation leaves
+//! unchanged, and converges one order faster. Curvature is `|r' x r''|/|r'|^3`, moment `EI kappa`
+//! about the binormal; they are read raw. A rest shape and damping change both: `N = EA (eps -
+//! eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 //!
-//! At the nodes between elements N jumps by its error, which is of first order under bending, antisymmetric about the middle of each element,
-//! and in proportion to the element's length. The tension that is read is averaged there, with weights that make this error vanish,
-//! `(h_2 N_1 + h_1 N_2)/(h_1 + h_2)`, and what is added to reach the averages is quadratic in the element and vanishes in its middle, which is
-//! right already; at an end, and at a node where the tension itself jumps (a support, a point load, another section), it is the opposite of
-//! what is added at the other node. That makes it second order (`tests/tension.rs`); the jump is given as its uncertainty.
+//! At the nodes between elements N jumps by its error, which is of first order under bending,
+//! antisymmetric about the middle of each element, and in proportion to the element's length. The
+//! tension that is read is averaged there, with weights that make this error vanish, `(h_2 N_1 +
+//! h_1 N_2)/(h_1 + h_2)`, and what is added to reach the averages is quadratic in the element and
+//! vanishes in its middle, which is right already; at an end, and at a node where the tension
+//! itself jumps (a support, a point load, another section), it is the opposite of what is added at
+//! the other node. That makes it second order (`tests/tension.rs`); the jump is given as its
+//! uncertainty.
 //!
 //! # References
 //!
@@ -43,10 +48,11 @@ pub struct Sample {
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
-    /// Bending moment EI kappa in N m: along the binormal. Where |r'| < 1/2, the continued power of the bending rule.
+    /// Bending moment EI kappa in N m: along the binormal. Where |r'| < 1/2, the continued power of
+    /// the bending rule.
     pub moment: Vector3<f64>,
-    /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before averaging; all of the tension where no
-    /// node can judge.
+    /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before
+    /// averaging; all of the tension where no node can judge.
     pub tension_uncertainty: f64,
 }
 
@@ -137,8 +143,9 @@ impl Cable {
         }
     }
 
-    /// Returns the arc length in m where the tension is largest, and the tension there in N: read at both ends of every element, between
-    /// which it is linear but for the stretch. A point load inside an element makes the reading overshoot at its ends: place a node there.
+    /// Returns the arc length in m where the tension is largest, and the tension there in N: read
+    /// at both ends of every element, between which it is linear but for the stretch. A point load
+    /// inside an element makes the reading overshoot at its ends: place a node there.
     pub fn peak_tension(&self) -> (f64, f64) {
         let mut peak = (0.0, f64::NEG_INFINITY);
         let mut from = 0.0;

@@ -8,9 +8,10 @@ use crate::system::System;
 use crate::term::EnergyLaw;
 use serde::{Deserialize, Serialize};
 
-/// Everything that changes while a cable moves, as plain data: clone it, serialise it, [restore](crate::Cable::restore) it, and the run continues
-/// bitwise the same. Not in it: the description (supports, loads, effects), samples of a flow, and functions of
-/// [your own](crate::ForceDensity), which stay with the cable.
+/// Everything that changes while a cable moves, as plain data: clone it, serialise it,
+/// [restore](crate::Cable::restore) it, and the run continues bitwise the same. Not in it: the
+/// description (supports, loads, effects), samples of a flow, and functions of [your
+/// own](crate::ForceDensity), which stay with the cable.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     pub(crate) state: State,
@@ -51,7 +52,8 @@ impl Snapshot {
         &self.state.q
     }
 
-    /// Adds the work of effects in a host step that succeeded; `before` are the positions when it began.
+    /// Adds the work of effects in a host step that succeeded; `before` are the positions when it
+    /// began.
     pub(crate) fn add_work_of_step(&mut self, system: &mut System, before: &[f64]) {
         self.work += core::mem::take(&mut system.meter.work);
         self.load = system.load;

@@ -18,8 +18,8 @@ impl Cable {
         &self.snapshot.state.v
     }
 
-    /// Returns the terms of the energy law since the cable was built: of an island that steps by `discrete-gradient`, its first cable has those of
-    /// all.
+    /// Returns the terms of the energy law since the cable was built: of an island that steps by
+    /// `discrete-gradient`, its first cable has those of all.
     pub fn energy_law(&self) -> &EnergyLaw {
         &self.snapshot.law
     }
@@ -29,12 +29,12 @@ impl Cable {
         &self.snapshot
     }
 
-    /// Restores a state; the run then continues bitwise as it did from there (if supports, loads, effects and integrator are
-    /// as they were, else from its positions and velocities).
+    /// Restores a state; the run then continues bitwise as it did from there (if supports, loads,
+    /// effects and integrator are as they were, else from its positions and velocities).
     ///
     /// # Errors
-    /// [`Error::WrongCount`] if the state is of a cable with another number of nodes, [`Error::InvalidValue`] if it is not
-    /// finite.
+    /// [`Error::WrongCount`] if the state is of a cable with another number of nodes,
+    /// [`Error::InvalidValue`] if it is not finite.
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), Error> {
         let nodes = snapshot.nodes_with_reel(self.has_reel(), self.nodes());
         snapshot.state.check(self.name(), 6 * nodes)?;
@@ -57,12 +57,14 @@ impl Cable {
         Ok(())
     }
 
-    /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and [`velocities`](Self::velocities).
-    /// If positions change, contacts are forgotten: friction begins anew, and a depth at which the cable is set gives no force and no energy.
+    /// Sets nodal coordinates and velocities, flat as [`positions`](Self::positions) and
+    /// [`velocities`](Self::velocities). If positions change, contacts are forgotten: friction
+    /// begins anew, and a depth at which the cable is set gives no force and no energy.
     /// [`restore`](Self::restore) keeps them.
     ///
     /// # Errors
-    /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not finite.
+    /// [`Error::WrongCount`] for the wrong number, [`Error::InvalidValue`] for numbers that are not
+    /// finite.
     pub fn set_coordinates(&mut self, positions: &[f64], velocities: &[f64]) -> Result<(), Error> {
         let n = self.positions().len();
         for (what, each, given) in [("coordinates", "coordinate", positions), ("velocities", "velocity", velocities)] {
@@ -90,7 +92,8 @@ impl Cable {
         self.snapshot.state.memory.pairs.clear();
     }
 
-    /// Marks the accelerations as unknown, after a change of the velocities; contacts are of the positions.
+    /// Marks the accelerations as unknown, after a change of the velocities; contacts are of the
+    /// positions.
     fn disturb_motion(&mut self) {
         let memory = &mut self.snapshot.state.memory;
         memory.valid = false;
@@ -102,7 +105,8 @@ impl Cable {
         }
     }
 
-    /// Marks a change of supports, loads, effects or integrator: states from before keep their positions and velocities only.
+    /// Marks a change of supports, loads, effects or integrator: states from before keep their
+    /// positions and velocities only.
     pub(crate) fn revise(&mut self) {
         self.revision += 1;
         self.refresh_memory();
@@ -124,7 +128,8 @@ impl Cable {
             v[3..].copy_from_slice(angular_velocity.cross(&t).as_slice());
         }
         for (node, support) in &self.model.supports {
-            // the next step moves held coordinates to their positions; here only their velocity counts
+            // the next step moves held coordinates to their positions; here only their velocity
+            // counts
             let mut position = [0.0; 6];
             support.prescribe(state.time, &mut position, &mut state.v[6 * node..6 * node + 6]);
         }
@@ -164,7 +169,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Discards accelerations that belong to another description of the cable (of a snapshot from before a change).
+    /// Discards accelerations that belong to another description of the cable (of a snapshot from
+    /// before a change).
     pub(crate) fn refresh_memory(&mut self) {
         let memory = &mut self.snapshot.state.memory;
         if memory.revision != self.revision {

@@ -14,11 +14,13 @@ impl Cable {
         Ok(self.model.support(self.node(at)?).copied().unwrap_or_default())
     }
 
-    /// Holds a node, or frees it with `Support::default()`. A prescribed position or slope jumps to its value at the next step; a
-    /// slope held to a direction is rotated to it at once, keeping its length.
+    /// Holds a node, or frees it with `Support::default()`. A prescribed position or slope jumps to
+    /// its value at the next step; a slope held to a direction is rotated to it at once, keeping
+    /// its length.
     ///
     /// # Errors
-    /// As [`node`](Self::node); [`Error::InvalidValue`] for numbers that are not finite or a direction that is not a unit vector.
+    /// As [`node`](Self::node); [`Error::InvalidValue`] for numbers that are not finite or a
+    /// direction that is not a unit vector.
     pub fn set_support(&mut self, at: impl Into<At>, support: Support) -> Result<(), Error> {
         let node = self.node(at)?;
         support.check().map_err(|e| e.of_cable(self.name()))?;
@@ -50,8 +52,9 @@ impl Cable {
         self.set_support(At::Node(node), Support { position, slope: SlopeSupport::Free, attached: false })
     }
 
-    /// Prescribes the position of a node as `motion` and keeps the support of its slope; cheap if the position was prescribed already.
-    /// A motion that continues position and velocity of the last one keeps what integrators carry from step to step.
+    /// Prescribes the position of a node as `motion` and keeps the support of its slope; cheap if
+    /// the position was prescribed already. A motion that continues position and velocity of the
+    /// last one keeps what integrators carry from step to step.
     ///
     /// # Errors
     /// As [`set_support`](Self::set_support).

@@ -2,26 +2,32 @@
 //!
 //! # Equation
 //!
-//! A cable is smooth at its nodes, and a polyline is not: elements at its corners, laid on it, are too long or too short. The nodes are moved until the axial energy of the
-//! rule [`projected`](crate::element::axial::projected), beyond that of the even stretch f_0 of the drawing, is below 1e-8 EA L. It is a sum of squares of the Green strain, in Legendre
-//! polynomials over the element,
+//! A cable is smooth at its nodes, and a polyline is not: elements at its corners, laid on it, are
+//! too long or too short. The nodes are moved until the axial energy of the rule
+//! [`projected`](crate::element::axial::projected), beyond that of the even stretch f_0 of the
+//! drawing, is below 1e-8 EA L. It is a sum of squares of the Green strain, in Legendre polynomials
+//! over the element,
 //!
 //! ```text
 //! U = EA/2 |c|^2        c_(e,j) = sqrt(l delta_j) (eps_j - [j = 0] (f_0^2 - 1)/2), j = 0..4        delta_j = 1, 1, delta, delta, delta
 //! d q = -W^-1 J^T (J W^-1 J^T + mu)^-1 c        J = dc/dq
 //! ```
 //!
-//! and the change of the nodal coordinates is small in the norm W (steps of Levenberg and Marquardt): positions weigh 1, slopes the
-//! square of the distance l/8 over which they act. mu falls with every step, so that the corners move first, and the iteration ends where the energy is low enough.
-//! `J W^-1 J^T` is tridiagonal in blocks of the elements.
+//! and the change of the nodal coordinates is small in the norm W (steps of Levenberg and
+//! Marquardt): positions weigh 1, slopes the square of the distance l/8 over which they act. mu
+//! falls with every step, so that the corners move first, and the iteration ends where the energy
+//! is low enough. `J W^-1 J^T` is tridiagonal in blocks of the elements.
 //!
 //! # Validity
 //!
-//! The start, the end, held nodes and nodes that the user asked for stay where they are drawn, clamps keep their direction. At a corner on such a node the cable is laid as if it
-//! ended there, for it is cut there or held, and the node keeps the mean direction of its sides: elements beside it stay strained until it is
-//! [opened](super::Cable::open_corner). A shape of less than 1e-6 EA L stays as drawn.
-//! Random polylines of 3 to 6 points, with corners up to 150 degrees and 4 to 60 elements, end below 1e-7 EA L, with nodes at most 0.6 elements beside where they were laid
-//! (`tests/corners.rs`); two legs with one right angle, by 0.13 elements. The other axial rules ask more of a bent element, and keep more energy.
+//! The start, the end, held nodes and nodes that the user asked for stay where they are drawn,
+//! clamps keep their direction. At a corner on such a node the cable is laid as if it ended there,
+//! for it is cut there or held, and the node keeps the mean direction of its sides: elements beside
+//! it stay strained until it is [opened](super::Cable::open_corner). A shape of less than 1e-6 EA L
+//! stays as drawn. Random polylines of 3 to 6 points, with corners up to 150 degrees and 4 to 60
+//! elements, end below 1e-7 EA L, with nodes at most 0.6 elements beside where they were laid
+//! (`tests/corners.rs`); two legs with one right angle, by 0.13 elements. The other axial rules ask
+//! more of a bent element, and keep more energy.
 //!
 //! # References
 //!
@@ -29,8 +35,10 @@
 //!
 //! # Alternatives considered
 //!
-//! A corner rounded by an arc of the right length: nodes fall on the arc or beside it, and elements that begin on it and end on the leg are strained still. Mean and linear part of the
-//! strain to zero by the least change, without the rest: a corner then bends the two elements beside it, which hold up to 5e-5 EA L.
+//! A corner rounded by an arc of the right length: nodes fall on the arc or beside it, and elements
+//! that begin on it and end on the leg are strained still. Mean and linear part of the strain to
+//! zero by the least change, without the rest: a corner then bends the two elements beside it,
+//! which hold up to 5e-5 EA L.
 
 use super::layout::Laid;
 use crate::element::shape;
@@ -68,7 +76,8 @@ struct Span<'a> {
     points: Vec<(f64, Strain)>,
 }
 
-/// Moves the nodes at arc lengths `s` (m), laid with an even stretch, until the elements have hardly another strain.
+/// Moves the nodes at arc lengths `s` (m), laid with an even stretch, until the elements have
+/// hardly another strain.
 pub(super) fn unstrain(laid: &mut [Laid], s: &[f64], kept: &[Kept], stretch: f64) {
     let stretch = stretch.max(1.0);
     let last = laid.len() - 1;
@@ -163,7 +172,8 @@ impl Span<'_> {
         weighted
     }
 
-    /// Moves the nodes until the square of the strain is at most `enough`, or as small as it can be made; returns whether it fell.
+    /// Moves the nodes until the square of the strain is at most `enough`, or as small as it can be
+    /// made; returns whether it fell.
     fn solve(&self, q: &mut Nodes, enough: f64) -> bool {
         let elements = self.s.len() - 1;
         let first = self.square(q);

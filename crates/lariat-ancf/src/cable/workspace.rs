@@ -1,8 +1,9 @@
 //! The buffers of a step: one set per thread, lent to each cable while it steps.
 //!
-//! A cable between two steps holds its description, its state and its tables, but no matrix and no vector that a step overwrites: these
-//! are some 40 kB per cable of 16 elements, and one set that stays in the cache serves a whole fleet. What a cable finds in them is
-//! unspecified, and nothing of it reaches a result.
+//! A cable between two steps holds its description, its state and its tables, but no matrix and no
+//! vector that a step overwrites: these are some 40 kB per cable of 16 elements, and one set that
+//! stays in the cache serves a whole fleet. What a cable finds in them is unspecified, and nothing
+//! of it reaches a result.
 
 use super::Cable;
 use crate::integrate::Scratch;

@@ -11,44 +11,52 @@ use crate::strength::Load;
 use crate::warning::{IslandChange, Warning};
 use nalgebra::Vector3;
 
-/// What a coupling to an engine needs of a cable, and the user of a rope does not: nodes that bodies hold, keys of contacts, reels of a host
-/// step, readings of an island.
+/// What a coupling to an engine needs of a cable, and the user of a rope does not: nodes that
+/// bodies hold, keys of contacts, reels of a host step, readings of an island.
 pub trait Coupling {
     /// Returns the key by which other cables remember their contacts with this one.
     fn contact_key(&self) -> u64;
 
-    /// Sets the key by which other cables remember their contacts with this one, unique among cables that can touch. Default: 0, which stands for
-    /// the place of the cable in its island.
+    /// Sets the key by which other cables remember their contacts with this one, unique among
+    /// cables that can touch. Default: 0, which stands for the place of the cable in its island.
     fn set_contact_key(&mut self, key: u64);
 
-    /// Returns the largest radius in m with which it touches; 0 without [`Contact`](crate::Contact).
+    /// Returns the largest radius in m with which it touches; 0 without
+    /// [`Contact`](crate::Contact).
     fn contact_radius(&self) -> f64;
 
     /// Returns the energy in J that contacts store.
     fn contact_energy(&self) -> f64;
 
-    /// Gives an end at a corner of the drawn shape, where the cable was [cut](Cable::cut), the slope of its own side, as drawn. Does nothing
-    /// at another point, and where the end has moved since the cable was built.
+    /// Gives an end at a corner of the drawn shape, where the cable was [cut](Cable::cut), the
+    /// slope of its own side, as drawn. Does nothing at another point, and where the end has moved
+    /// since the cable was built.
     fn open_corner(&mut self, at: impl Into<At>);
 
-    /// Sets the Kelvin-Voigt time in s that the axial strain has at least from the next step on: 0 by default and for numbers that are not positive.
-    /// For a host that can move the cable only in steps of its own: what these excite and do not resolve, a time of a tenth of a step damps.
-    /// It is no effect and no part of a saved cable; what it takes is work of [`damping`](Cable::effect_work).
+    /// Sets the Kelvin-Voigt time in s that the axial strain has at least from the next step on: 0
+    /// by default and for numbers that are not positive. For a host that can move the cable only in
+    /// steps of its own: what these excite and do not resolve, a time of a tenth of a step damps.
+    /// It is no effect and no part of a saved cable; what it takes is work of
+    /// [`damping`](Cable::effect_work).
     fn set_least_damping(&mut self, time: f64);
 
     /// Returns the counters, to reset them.
     fn diagnostics_mut(&mut self) -> &mut Diagnostics;
 
-    /// Returns whether the integrator is the builder's default, because nobody chose one. A set of cables may then give it its own.
+    /// Returns whether the integrator is the builder's default, because nobody chose one. A set of
+    /// cables may then give it its own.
     fn has_default_integrator(&self) -> bool;
 
-    /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in several steps: they are linear over all of it, but for one in which
-    /// the table of the reel has a row. A step that nothing was planned for is planned by itself. Does nothing without a reel.
+    /// Plans the rates of the reels for the coming host step of `dt` (s), which the caller takes in
+    /// several steps: they are linear over all of it, but for one in which the table of the reel
+    /// has a row. A step that nothing was planned for is planned by itself. Does nothing without a
+    /// reel.
     fn plan_reels(&mut self, dt: f64);
 
-    /// Splits or merges the elements at the eyes of reels where their lengths ask for it; does nothing without a reel.
-    /// [`step`](Cable::step) does so by itself. Between the steps of an [`Island`](crate::island::Island) the caller does, because the
-    /// numbers of nodes change: at a reel at the end that of the eye, at one at the start all others
+    /// Splits or merges the elements at the eyes of reels where their lengths ask for it; does
+    /// nothing without a reel. [`step`](Cable::step) does so by itself. Between the steps of an
+    /// [`Island`](crate::island::Island) the caller does, because the numbers of nodes change: at a
+    /// reel at the end that of the eye, at one at the start all others
     /// ([`nodes_from_start`](Self::nodes_from_start)).
     ///
     /// # Errors
@@ -58,25 +66,29 @@ pub trait Coupling {
     /// Returns whether all reels stand and are not asked to turn; true without one.
     fn is_reel_still(&self) -> bool;
 
-    /// Returns the number of elements that came through the eye of a reel at the start so far, on balance: the numbers of all nodes but
-    /// that one have grown by this.
+    /// Returns the number of elements that came through the eye of a reel at the start so far, on
+    /// balance: the numbers of all nodes but that one have grown by this.
     fn nodes_from_start(&self) -> i64;
 
-    /// Returns the length in m that came through the eye of a reel at the start so far, on balance: the arc lengths of all material have
-    /// grown by this.
+    /// Returns the length in m that came through the eye of a reel at the start so far, on balance:
+    /// the arc lengths of all material have grown by this.
     fn length_from_start(&self) -> f64;
 
-    /// Adds a step of the [island](crate::island) of which it is the first cable to its energy balance, if it is watched: for those who step islands.
+    /// Adds a step of the [island](crate::island) of which it is the first cable to its energy
+    /// balance, if it is watched: for those who step islands.
     fn note_island(&mut self, step: &IslandChange);
 
-    /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each warning that it was not called with before. For
-    /// those who step [islands](crate::island), and those who want to hear of warnings as they come up. `alone` says whether nothing but its own
-    /// supports, loads and effects acted on it, which its energy balance needs: neither a dynamic body nor another cable.
+    /// Reads the cable at the end of a host step, if it is watched, and calls `tell` with each
+    /// warning that it was not called with before. For those who step [islands](crate::island), and
+    /// those who want to hear of warnings as they come up. `alone` says whether nothing but its own
+    /// supports, loads and effects acted on it, which its energy balance needs: neither a dynamic
+    /// body nor another cable.
     fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning));
 
-    /// Tells by how much (m) positions of what holds the cable were rounded in a host step of `h` (s); for those who hold cables by bodies in
-    /// single precision. If the cable is straight, the rounding u makes forces of `u EA/L (1 + T/h)` with the axial retardation time T;
-    /// warnings compare them with the tension. What is not finite counts as zero.
+    /// Tells by how much (m) positions of what holds the cable were rounded in a host step of `h`
+    /// (s); for those who hold cables by bodies in single precision. If the cable is straight, the
+    /// rounding u makes forces of `u EA/L (1 + T/h)` with the axial retardation time T; warnings
+    /// compare them with the tension. What is not finite counts as zero.
     fn set_end_rounding(&mut self, rounding: f64, h: f64);
 
     /// Gives the position of a node to an island: it will follow the body that a
@@ -100,14 +112,15 @@ pub trait Coupling {
     /// As [`node`](Cable::node).
     fn detach(&mut self, at: impl Into<At>) -> Result<(), Error>;
 
-    /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance from it.
+    /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance
+    /// from it.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a time that is not finite.
     fn set_time(&mut self, time: f64) -> Result<(), Error>;
 
-    /// Sets the velocity field of a rigid motion: `velocity` (m/s) of the start point, `angular_velocity` (rad/s) about it. Held points keep
-    /// the velocity of their supports.
+    /// Sets the velocity field of a rigid motion: `velocity` (m/s) of the start point,
+    /// `angular_velocity` (rad/s) about it. Held points keep the velocity of their supports.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for numbers that are not finite.
@@ -119,44 +132,50 @@ pub trait Coupling {
     /// Returns whether all loads are at their full value now, that is no ramp is in progress.
     fn is_loaded_steadily(&self) -> bool;
 
-    /// Returns the largest load since the cable was compared with its limits last, the present one included; `None` without a limit.
+    /// Returns the largest load since the cable was compared with its limits last, the present one
+    /// included; `None` without a limit.
     fn peak_load(&self) -> Option<Load>;
 
-    /// Returns the elastic energy in J that [inserted nodes](Cable::insert_node) have added so far, those of [cuts](Cable::cut) included: it
-    /// belongs in an energy balance over such an edit. Zero with the exact axial rule, or 5 Gauss points and more, and no bending.
+    /// Returns the elastic energy in J that [inserted nodes](Cable::insert_node) have added so far,
+    /// those of [cuts](Cable::cut) included: it belongs in an energy balance over such an edit.
+    /// Zero with the exact axial rule, or 5 Gauss points and more, and no bending.
     fn inserted_energy(&self) -> f64;
 
-    /// Returns the energy in J that the method `discrete-gradient` holds beyond the mechanical energy: S of the last step. Its law is about
-    /// the sum of both.
+    /// Returns the energy in J that the method `discrete-gradient` holds beyond the mechanical
+    /// energy: S of the last step. Its law is about the sum of both.
     fn energy_in_store(&self) -> f64;
 
-    /// Returns the largest jump of the tension between neighbouring elements before it is averaged, in N: a bound of its error that converges
-    /// with the first order under bending, where the average that is read has the second. `None` if no node can judge.
+    /// Returns the largest jump of the tension between neighbouring elements before it is averaged,
+    /// in N: a bound of its error that converges with the first order under bending, where the
+    /// average that is read has the second. `None` if no node can judge.
     fn tension_jump(&self) -> Option<f64>;
 
-    /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the present state and its known
-    /// accelerations; unknown ones are taken as zero. Allocates nothing.
+    /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the
+    /// present state and its known accelerations; unknown ones are taken as zero. Allocates
+    /// nothing.
     fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>);
 
     /// Returns whether the cable reads itself.
     fn is_watched(&self) -> bool;
 
-    /// Returns the integrator that `choice` means for this cable: an implicit one where internal damping needs it.
+    /// Returns the integrator that `choice` means for this cable: an implicit one where internal
+    /// damping needs it.
     fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator;
 
-    /// Replaces rule, effects and integrator together from the next step on, where one needs the other: damping needs an implicit
-    /// integrator, a natural curvature a bending rule.
+    /// Replaces rule, effects and integrator together from the next step on, where one needs the
+    /// other: damping needs an implicit integrator, a natural curvature a bending rule.
     ///
     /// # Errors
-    /// As [`set_rule`](Cable::set_rule) (except for zero-energy modes, which a cable may be built with), [`set_effects`](Cable::set_effects)
-    /// and [`set_integrator`](Cable::set_integrator). The cable is then as before.
+    /// As [`set_rule`](Cable::set_rule) (except for zero-energy modes, which a cable may be built
+    /// with), [`set_effects`](Cable::set_effects) and [`set_integrator`](Cable::set_integrator).
+    /// The cable is then as before.
     fn redefine(&mut self, rule: Rule, effects: Effects, integrator: Integrator) -> Result<(), Error>;
 
     /// Returns the speed of the fastest node in m/s.
     fn speed(&self) -> f64;
 
-    /// Advances the clock by `dt` (s) at rest: positions stay, velocities become zero. For a caller who knows that the cable is at rest,
-    /// or wants it frozen.
+    /// Advances the clock by `dt` (s) at rest: positions stay, velocities become zero. For a caller
+    /// who knows that the cable is at rest, or wants it frozen.
     fn rest(&mut self, dt: f64);
 }
 

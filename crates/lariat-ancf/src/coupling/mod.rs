@@ -1,5 +1,5 @@
-//! Traits of a [`Cable`](crate::Cable) for those who couple it to an engine, or need its matrices. No user of ropes needs them:
-//! lariat-rapier does what they are for.
+//! Traits of a [`Cable`](crate::Cable) for those who couple it to an engine, or need its matrices.
+//! No user of ropes needs them: lariat-rapier does what they are for.
 //!
 //! ```
 //! use lariat_ancf::coupling::Coupling;

@@ -2,18 +2,22 @@
 //!
 //! # Equation
 //!
-//! Tension and strain are read at both ends of every element, as [`Cable::sample`] reads them; the strain is `f/f_0 - 1`, f the stretch of
-//! the projected Green strain and f_0 the rest stretch. The cable breaks at the inner node nearest to the reading that exceeds its
-//! limit most.
+//! Tension and strain are read at both ends of every element, as [`Cable::sample`] reads them; the
+//! strain is `f/f_0 - 1`, f the stretch of the projected Green strain and f_0 the rest stretch. The
+//! cable breaks at the inner node nearest to the reading that exceeds its limit most.
 //!
 //! # Validity
 //!
-//! The load is [read](crate::system) after every integration step, and the cable breaks by the largest load since it was asked last, at the end
-//! of a host step usually: [`Break`] says when within it the limit was exceeded most. What the steps themselves do not resolve they do not see;
-//! [`Warning::UnseenLoad`](crate::Warning::UnseenLoad) says where that may have exceeded the limit. A part keeps the load that it had at the break until the wave of
-//! the break, of the speed sqrt(EA/rho A), has run through: until then that load breaks it no more. Breaking at a node changes neither shape nor motion, so mass, momenta and energy of the parts are those of the whole to rounding ([`Break`]); the strain energy becomes motion
-//! in the steps that follow. A cable of one element has no inner node: [`Cable::set_strength`] refuses it, and a part of one element
-//! stays whole.
+//! The load is [read](crate::system) after every integration step, and the cable breaks by the
+//! largest load since it was asked last, at the end of a host step usually: [`Break`] says when
+//! within it the limit was exceeded most. What the steps themselves do not resolve they do not see;
+//! [`Warning::UnseenLoad`](crate::Warning::UnseenLoad) says where that may have exceeded the limit.
+//! A part keeps the load that it had at the break until the wave of the break, of the speed
+//! sqrt(EA/rho A), has run through: until then that load breaks it no more. Breaking at a node
+//! changes neither shape nor motion, so mass, momenta and energy of the parts are those of the
+//! whole to rounding ([`Break`]); the strain energy becomes motion in the steps that follow. A
+//! cable of one element has no inner node: [`Cable::set_strength`] refuses it, and a part of one
+//! element stays whole.
 //!
 //! # References
 //!
@@ -21,8 +25,8 @@
 //!
 //! # Alternatives considered
 //!
-//! Splitting the element at the reading: it is at a node already, since readings are largest at the ends of elements, and next to a
-//! support the part would be too short to step.
+//! Splitting the element at the reading: it is at a node already, since readings are largest at the
+//! ends of elements, and next to a support the part would be too short to step.
 
 use crate::at::At;
 use crate::cable::Cable;
@@ -36,11 +40,14 @@ impl Cable {
         self.model.strength
     }
 
-    /// Sets what the cable withstands: a [`Strength`], or a tension in N. The load is read after each
-    /// integration step, and the cable breaks when [`break_overloaded`](Self::break_overloaded) is called; a `CableSet` of lariat-rapier does so after each host step.
+    /// Sets what the cable withstands: a [`Strength`], or a tension in N. The load is read after
+    /// each integration step, and the cable breaks when
+    /// [`break_overloaded`](Self::break_overloaded) is called; a `CableSet` of lariat-rapier does
+    /// so after each host step.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a limit that is not positive, [`Error::OneElement`] for a limit on a cable of one element.
+    /// [`Error::InvalidValue`] for a limit that is not positive, [`Error::OneElement`] for a limit
+    /// on a cable of one element.
     pub fn set_strength(&mut self, strength: impl Into<Strength>) -> Result<(), Error> {
         let strength = strength.into();
         strength.check().map_err(|e| e.of_cable(self.name()))?;
@@ -53,8 +60,9 @@ impl Cable {
         Ok(())
     }
 
-    /// Breaks the cable if it is overloaded: this one keeps the part before the break, the rest is returned, and both keep the
-    /// [strength](Self::strength). Loads, effects and supports stay with their part.
+    /// Breaks the cable if it is overloaded: this one keeps the part before the break, the rest is
+    /// returned, and both keep the [strength](Self::strength). Loads, effects and supports stay
+    /// with their part.
     ///
     /// # Errors
     /// As [`cut`](Self::cut); not for a cable that was built.
@@ -75,7 +83,8 @@ impl Cable {
         Ok(Some((rest, how)))
     }
 
-    /// Lets the present load of a part of a cable that broke count no more until the wave of the break has run through it.
+    /// Lets the present load of a part of a cable that broke count no more until the wave of the
+    /// break has run through it.
     fn know_load(&mut self) {
         let load = self.reading().largest_load(self.strength());
         let passing = |e: &Element| e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt();
@@ -98,7 +107,8 @@ impl Cable {
         }))
     }
 
-    /// Cuts the cable at a point as [`cut`](Self::cut) does, and returns beside the rest what it carried there.
+    /// Cuts the cable at a point as [`cut`](Self::cut) does, and returns beside the rest what it
+    /// carried there.
     ///
     /// # Errors
     /// As [`cut`](Self::cut).
@@ -132,7 +142,8 @@ impl Cable {
         (sample.tension, (1.0 + 2.0 * sample.green_strain).max(0.0).sqrt() / rest - 1.0)
     }
 
-    /// Returns the arc length in m of the inner node nearest to another; a cable of one element has none.
+    /// Returns the arc length in m of the inner node nearest to another; a cable of one element has
+    /// none.
     fn inner_node(&self, arc_length: f64) -> Option<f64> {
         let nodes = self.node_arc_lengths();
         let distance = |node: &f64| (node - arc_length).abs();

@@ -2,14 +2,15 @@
 //!
 //! # Validity
 //!
-//! Any node between the ends. The tension at the cut is unbalanced from then on: a taut cable whips, and needs an integrator with error
-//! control, or damping.
+//! Any node between the ends. The tension at the cut is unbalanced from then on: a taut cable
+//! whips, and needs an integrator with error control, or damping.
 //!
 //! # References
 //!
-//! The nodal coordinates of the cut are doubled ([`insert_node`](Cable::insert_node) places them first): mass, momenta and kinetic energy
-//! of the parts sum to those of the whole to rounding. So does elastic energy at a node; between two nodes the part before the cut
-//! records the difference ([`inserted_energy`](crate::coupling::Coupling::inserted_energy)).
+//! The nodal coordinates of the cut are doubled ([`insert_node`](Cable::insert_node) places them
+//! first): mass, momenta and kinetic energy of the parts sum to those of the whole to rounding. So
+//! does elastic energy at a node; between two nodes the part before the cut records the difference
+//! ([`inserted_energy`](crate::coupling::Coupling::inserted_energy)).
 
 use crate::at::At;
 use crate::cable::{Cable, Snapshot};
@@ -19,12 +20,13 @@ use crate::state::{Memory, State};
 use crate::strength::LoadRecord;
 
 impl Cable {
-    /// Cuts the cable at a point: this one keeps the part before it, the rest is returned. A support or load at the point itself stays with
-    /// this one. Effects act on both parts; their work so far, and the counters, stay with this one, reels with their ends.
+    /// Cuts the cable at a point: this one keeps the part before it, the rest is returned. A
+    /// support or load at the point itself stays with this one. Effects act on both parts; their
+    /// work so far, and the counters, stay with this one, reels with their ends.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the point is not on the cable, or at one of its ends; [`Error::NotWithReel`] if it is in
-    /// the element at a reel.
+    /// [`Error::OutOfRange`] if the point is not on the cable, or at one of its ends;
+    /// [`Error::NotWithReel`] if it is in the element at a reel.
     pub fn cut(&mut self, at: impl Into<At>) -> Result<Cable, Error> {
         let s = self.arc_length(at)?;
         let length = self.length();

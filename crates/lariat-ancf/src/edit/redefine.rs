@@ -7,13 +7,15 @@ use crate::integrate::Integrator;
 use crate::rule::Rule;
 
 impl Cable {
-    /// Replaces the rule of the elastic forces from the next step on: this also switches bending on and off
-    /// ([`BendingRule::None`](crate::BendingRule::None)). Positions and velocities stay as they are, so elastic energy changes where the
-    /// rules differ. Not meant for every step, because it builds tables.
+    /// Replaces the rule of the elastic forces from the next step on: this also switches bending on
+    /// and off ([`BendingRule::None`](crate::BendingRule::None)). Positions and velocities stay as
+    /// they are, so elastic energy changes where the rules differ. Not meant for every step,
+    /// because it builds tables.
     ///
     /// # Errors
-    /// [`Error::UnknownRule`] for points out of range, [`Error::RankDeficient`] for a rule with zero-energy modes,
-    /// [`Error::MissingForEffect`] for an effect that needs a bending rule. The cable is then as before.
+    /// [`Error::UnknownRule`] for points out of range, [`Error::RankDeficient`] for a rule with
+    /// zero-energy modes, [`Error::MissingForEffect`] for an effect that needs a bending rule. The
+    /// cable is then as before.
     pub fn set_rule(&mut self, rule: Rule) -> Result<(), Error> {
         rule.check()?;
         self.redefine(rule, self.effects().clone(), self.integrator())

@@ -2,11 +2,12 @@
 //!
 //! # Equation
 //!
-//! The element is split at xi; the new node gets the position and the slope dr/ds that the element has there, and their rates. A cubic is
-//! its own Hermite interpolant on any part, so both parts reproduce it exactly: strains, momenta and kinetic energy stay to rounding.
-//! Elastic energy stays where the rule integrates it exactly, else it changes by the error of the rule, because the rule of two elements
-//! sees more of the strain than that of one. With the projected axial rule, eps the Green strain and P its projection on linear functions
-//! of the whole element,
+//! The element is split at xi; the new node gets the position and the slope dr/ds that the element
+//! has there, and their rates. A cubic is its own Hermite interpolant on any part, so both parts
+//! reproduce it exactly: strains, momenta and kinetic energy stay to rounding. Elastic energy stays
+//! where the rule integrates it exactly, else it changes by the error of the rule, because the rule
+//! of two elements sees more of the strain than that of one. With the projected axial rule, eps the
+//! Green strain and P its projection on linear functions of the whole element,
 //!
 //! ```text
 //! 0 <= U' - U <= (1 - delta) EA/2 int (eps - P eps)^2 dx
@@ -17,7 +18,8 @@
 //!
 //! # Validity
 //!
-//! Any element; a split near a node leaves a short, stiff element, which makes explicit methods slow.
+//! Any element; a split near a node leaves a short, stiff element, which makes explicit methods
+//! slow.
 //!
 //! # References
 //!
@@ -25,7 +27,8 @@
 //!
 //! # Alternatives considered
 //!
-//! A new node off the curve, where the energy is that of before: shape and angular momentum would jump instead.
+//! A new node off the curve, where the energy is that of before: shape and angular momentum would
+//! jump instead.
 
 use crate::at::At;
 use crate::cable::Cable;
@@ -35,10 +38,12 @@ use crate::section::Element;
 use crate::state::{State, renumber};
 
 impl Cable {
-    /// Returns the node at a point, and places one if none is within 1e-9 of the length. Nodes behind it move up by one.
+    /// Returns the node at a point, and places one if none is within 1e-9 of the length. Nodes
+    /// behind it move up by one.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the point is not on the cable, [`Error::NotWithReel`] if it is in the element at a reel.
+    /// [`Error::OutOfRange`] if the point is not on the cable, [`Error::NotWithReel`] if it is in
+    /// the element at a reel.
     pub fn insert_node(&mut self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
         if let Ok(node) = self.node(At::ArcLength(s)) {

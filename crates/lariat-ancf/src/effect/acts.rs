@@ -1,4 +1,5 @@
-//! How effects enter the equations of motion: by constants, within the element kernel, or at Gauss points.
+//! How effects enter the equations of motion: by constants, within the element kernel, or at Gauss
+//! points.
 
 use super::{Effect, Target};
 use crate::dual::{Dual, Slope};
@@ -68,7 +69,8 @@ pub(crate) struct ForceInput<'a> {
     pub scale: f64,
 }
 
-/// The arguments of a force over a step of the [discrete gradient](crate::integrate::discrete_gradient).
+/// The arguments of a force over a step of the [discrete
+/// gradient](crate::integrate::discrete_gradient).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepInput<'a> {
     /// Time in the middle of the step in s.
@@ -77,7 +79,8 @@ pub(crate) struct StepInput<'a> {
     pub middle: &'a [f64],
     /// Mean velocities of the iterate: the change of the coordinates over h.
     pub velocity: &'a [f64],
-    /// Mean coordinates of the iterate about which the last linear solve was made; those of the present one before the first.
+    /// Mean coordinates of the iterate about which the last linear solve was made; those of the
+    /// present one before the first.
     pub middle_before: &'a [f64],
     /// Mean velocities of that iterate.
     pub velocity_before: &'a [f64],
@@ -128,7 +131,8 @@ pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug
         false
     }
 
-    /// Power in W that it gives to an element with velocities `v` of the control vectors; negative where it dissipates.
+    /// Power in W that it gives to an element with velocities `v` of the control vectors; negative
+    /// where it dissipates.
     fn power(&self, _at: &GramState<'_, f64>, _v: &Control<f64>) -> f64 {
         0.0
     }
@@ -142,14 +146,16 @@ pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug
 
 /// A force per length, integrated at Gauss points.
 pub(crate) trait PointForce: Clone + Debug {
-    /// Adds its generalised force to `out`, and its negative derivative to `matrix` if that is asked for.
+    /// Adds its generalised force to `out`, and its negative derivative to `matrix` if that is
+    /// asked for.
     fn add(&mut self, level: Level, input: ForceInput<'_>, out: &mut [f64], matrix: Option<&mut BlockTridiagonal>);
 
     /// Adds its generalised force on an element, in dual numbers.
     fn add_dual(&self, element: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12], out: &mut [Dual; 12]);
 
-    /// Adds its generalised force over a step to `out`, and to `matrix` b h^2 times its negative derivative by the change of the coordinates if
-    /// that is asked for. Default: the force at the mean configuration and velocity of the iterate, with its own derivative.
+    /// Adds its generalised force over a step to `out`, and to `matrix` b h^2 times its negative
+    /// derivative by the change of the coordinates if that is asked for. Default: the force at the
+    /// mean configuration and velocity of the iterate, with its own derivative.
     fn add_over_step(
         &mut self,
         level: Level,
@@ -169,7 +175,8 @@ pub(crate) trait PointForce: Clone + Debug {
         out.iter_mut().for_each(|f| *f *= 1.0 / scale);
     }
 
-    /// Sets the length of an element in m: that at the eye of a reel changes. Default: it never does.
+    /// Sets the length of an element in m: that at the eye of a reel changes. Default: it never
+    /// does.
     fn set_length(&mut self, _element: usize, _length: f64) {}
 
     /// Whether it can move a cable at rest although it has no potential.

@@ -6,24 +6,27 @@
 //! w = (rhoA - rho_f A_d) g          M = int S^T (rhoA + C_a rho_f A_d) S ds
 //! ```
 //!
-//! A_d is the displaced area per length. The weight and the mass matrix change once; a step does no more work than without.
+//! A_d is the displaced area per length. The weight and the mass matrix change once; a step does no
+//! more work than without.
 //!
 //! # Validity
 //!
-//! A closed, fully immersed cable in a fluid at rest or in slow change: the term (1 + C_a) rho_f A_d u' of an accelerated fluid is
-//! left out. A constant force per length is exact for a cable whose ends are closed; the tension that is read is then the
-//! *effective* tension (that of the wall plus the fluid's pressure times the area). Added mass acts in all directions alike: the
-//! true one acts across the cable only, so waves along it are slower by sqrt(1 + C_a rho_f A_d/rhoA).
+//! A closed, fully immersed cable in a fluid at rest or in slow change: the term (1 + C_a) rho_f
+//! A_d u' of an accelerated fluid is left out. A constant force per length is exact for a cable
+//! whose ends are closed; the tension that is read is then the *effective* tension (that of the
+//! wall plus the fluid's pressure times the area). Added mass acts in all directions alike: the
+//! true one acts across the cable only, so waves along it are slower by sqrt(1 + C_a rho_f
+//! A_d/rhoA).
 //!
 //! # References
 //!
-//! Archimedes; Morison et al. 1950 for the added mass C_a rho_f A_d of a cylinder (C_a = 1 for a circle in ideal flow, Lamb 1932,
-//! art. 68).
+//! Archimedes; Morison et al. 1950 for the added mass C_a rho_f A_d of a cylinder (C_a = 1 for a
+//! circle in ideal flow, Lamb 1932, art. 68).
 //!
 //! # Alternatives considered
 //!
-//! Added mass across the cable alone: a mass matrix that depends on the configuration, with its quadratic velocity terms, in every
-//! step.
+//! Added mass across the cable alone: a mass matrix that depends on the configuration, with its
+//! quadratic velocity terms, in every step.
 
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};

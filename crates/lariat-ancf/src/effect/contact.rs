@@ -1,4 +1,5 @@
-//! Contact and friction of a cable: its parameters. The mechanics are in [`contact`](crate::contact).
+//! Contact and friction of a cable: its parameters. The mechanics are in
+//! [`contact`](crate::contact).
 
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
@@ -7,7 +8,8 @@ use crate::scales::effect::SOFTNESS;
 use crate::section::Section;
 use serde::{Deserialize, Serialize};
 
-/// Contact with the [obstacles](crate::Cable::set_obstacles) of a cable, and with other cables and itself if it is asked for. Needs the method `discrete-gradient`.
+/// Contact with the [obstacles](crate::Cable::set_obstacles) of a cable, and with other cables and
+/// itself if it is asked for. Needs the method `discrete-gradient`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
@@ -15,10 +17,12 @@ pub struct Contact {
     pub radius: Option<f64>,
     /// Normal force per length and depth in N/m^2, > 0. Default: EA/(40 r^2).
     pub stiffness: Option<f64>,
-    /// Coefficient of friction of the cable, >= 0, which a host combines with that of what it touches. Default: 0.5.
+    /// Coefficient of friction of the cable, >= 0, which a host combines with that of what it
+    /// touches. Default: 0.5.
     pub friction: f64,
-    /// Coefficient of restitution of the cable, 0 to 1, which a host combines with that of a collider; [obstacles](crate::contact::Obstacle) have their own, and
-    /// between cables there is none. Default: 0.
+    /// Coefficient of restitution of the cable, 0 to 1, which a host combines with that of a
+    /// collider; [obstacles](crate::contact::Obstacle) have their own, and between cables there is
+    /// none. Default: 0.
     pub restitution: f64,
     /// Whether it touches other cables that have this too. Default: false.
     pub cables: bool,
@@ -65,7 +69,8 @@ impl Contact {
 }
 
 impl Effect for Contact {
-    // it stores energy, and bodies that move work through it: what it loses is in the energy law of the method
+    // it stores energy, and bodies that move work through it: what it loses is in the energy law of
+    // the method
     const DISSIPATIVE: bool = false;
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {

@@ -1,15 +1,18 @@
-//! The squared curvature at Gauss points as a function of the Gram numbers: shared by damping and rest shape of bending.
+//! The squared curvature at Gauss points as a function of the Gram numbers: shared by damping and
+//! rest shape of bending.
 //!
 //! # Equation
 //!
-//! `w = (kappa l/2)^2 = P/Q^3` ([`gauss`](crate::element::bending::gauss) for P, Q), so a function f(w) has the weighted derivatives
+//! `w = (kappa l/2)^2 = P/Q^3` ([`gauss`](crate::element::bending::gauss) for P, Q), so a function
+//! f(w) has the weighted derivatives
 //!
 //! ```text
 //! n = f' w_g        h = f' w_gg + f'' w_g w_g^T        w_g = P_g/Q^3 - 3 P b/Q^4
 //! w_gg = P_gg/Q^3 - 3 (P_g b^T + b P_g^T)/Q^4 + 12 P b b^T/Q^5
 //! ```
 //!
-//! with Q^-3 and its derivatives continued where an element is crumpled ([`regularisation`](crate::element::bending::regularisation)).
+//! with Q^-3 and its derivatives continued where an element is crumpled
+//! ([`regularisation`](crate::element::bending::regularisation)).
 //!
 //! # Validity
 //!
@@ -90,8 +93,9 @@ impl Point {
         Squared { w: powers[0] * p, gradient, p, minor, powers, inverse: at.inverse }
     }
 
-    /// w at both ends of a step, and the weighted discrete gradient: its product with the change of the Gram numbers is the change of w.
-    /// `x` and `mean` are the means of the minors and of the Gram numbers.
+    /// w at both ends of a step, and the weighted discrete gradient: its product with the change of
+    /// the Gram numbers is the change of w. `x` and `mean` are the means of the minors and of the
+    /// Gram numbers.
     #[inline(always)]
     pub fn secant<T: Real>(&self, g: [&Six<T>; 2], x: &Six<T>, mean: &Six<T>) -> ([T; 2], Six<T>) {
         let power = PowerSecant::cube(form(&self.b, g[0]), form(&self.b, g[1]));
@@ -103,8 +107,8 @@ impl Point {
         ([self.squared(g[0]).w, self.squared(g[1]).w], gradient)
     }
 
-    /// Adds the pairs of `scale |l r''/2|^2`: the [`gradient`](crate::element::gram::gradient) of any three vectors with these pairs is
-    /// the gradient of half of it.
+    /// Adds the pairs of `scale |l r''/2|^2`: the [`gradient`](crate::element::gram::gradient) of
+    /// any three vectors with these pairs is the gradient of half of it.
     #[inline(always)]
     pub fn add_second_derivative<T: Real>(&self, scale: T, n: &mut Six<T>) {
         for i in 0..6 {
@@ -156,7 +160,8 @@ impl<T: Real> Squared<T> {
         }
     }
 
-    /// Adds `scale P_g/Q^3`: pairs of the squared change of `r' x r''`, never negative for a positive scale.
+    /// Adds `scale P_g/Q^3`: pairs of the squared change of `r' x r''`, never negative for a
+    /// positive scale.
     #[inline(always)]
     pub fn add_minor(&self, scale: T, n: &mut Six<T>) {
         let scale = scale * self.powers[0];

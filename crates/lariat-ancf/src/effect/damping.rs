@@ -1,9 +1,10 @@
-//! Internal damping after Kelvin and Voigt: stress = E (strain + time * strain rate), for stretch and bending.
+//! Internal damping after Kelvin and Voigt: stress = E (strain + time * strain rate), for stretch
+//! and bending.
 //!
 //! # Equation
 //!
-//! The dissipation function of an element and its force, in Gram numbers g, their rates g' and the velocities v of the control
-//! vectors:
+//! The dissipation function of an element and its force, in Gram numbers g, their rates g' and the
+//! velocities v of the control vectors:
 //!
 //! ```text
 //! R = 1/2 EA tau_a int eps'^2 + 1/2 EI tau_b int kappa'^2          F = -dR/dq'          power 2R
@@ -12,51 +13,66 @@
 //! phi = (1 - w/e)^3 where w < e, else 0
 //! ```
 //!
-//! A is the axial rule's matrix, the points are those of the bending rule (three for T1, T2). An element that is bent (w >= e) is
-//! damped by the rate of the *scalar* curvature: only g and g' enter, so rigid motion makes no force, to the last bit of g' = 0. A
-//! nearly straight one is damped by the rate of the curvature *vector*, which is what a small vibration about the straight line
-//! needs. In a plane both are the same and the force is EI tau kappa', without a kink where the curvature passes through zero. Both
-//! vanish at zero velocity.
+//! A is the axial rule's matrix, the points are those of the bending rule (three for T1, T2). An
+//! element that is bent (w >= e) is damped by the rate of the *scalar* curvature: only g and g'
+//! enter, so rigid motion makes no force, to the last bit of g' = 0. A nearly straight one is
+//! damped by the rate of the curvature *vector*, which is what a small vibration about the straight
+//! line needs. In a plane both are the same and the force is EI tau kappa', without a kink where
+//! the curvature passes through zero. Both vanish at zero velocity.
 //!
-//! The derivative of the force by velocity is exact. By position the step takes the part that keeps its matrix symmetric: the
-//! geometric stiffness of the viscous stress, of bending that across the curvature and where it stiffens (along it, the derivative
-//! of g' cancels it). Left out is C (dg'/dq), which is unsymmetric; its symmetric half would make stiff matrices indefinite. The exact
-//! derivative is [`Cable::jacobians`](crate::coupling::Linearisation::jacobians)'s.
+//! The derivative of the force by velocity is exact. By position the step takes the part that keeps
+//! its matrix symmetric: the geometric stiffness of the viscous stress, of bending that across the
+//! curvature and where it stiffens (along it, the derivative of g' cancels it). Left out is C
+//! (dg'/dq), which is unsymmetric; its symmetric half would make stiff matrices indefinite. The
+//! exact derivative is [`Cable::jacobians`](crate::coupling::Linearisation::jacobians)'s.
 //!
-//! Over a step of the [discrete gradient](crate::integrate::discrete_gradient) the moment `m = EI tau D kappa/h` acts along the mean n of the curvature, and its derivative by the
-//! curvature vector k is `EI tau/h n n^T + m (1 - n n^T)/(2 |k|)`. The tangent takes both while m resists bending further, with `N(P_g)/Q^3`, never negative, for the second, and
-//! what that has along n taken from the first: `D w <= 4 w` then, so at least a part stays, and the matrix is never less definite. Where an element straightens, m < 0, the second makes it
-//! indefinite, a strut that buckles sideways: it is left out, and the iteration is a modified one. The force is the same. The second is taken near contacts alone: it also resists
-//! rotation of the curvature, which costs nothing, and elsewhere a step is accepted with what one iteration leaves: damped ropes on rotors of 0.86 rad per step pull 1.1 % too much
-//! with it and 0.25 % without (`moving_ends.rs` of lariat-rapier).
+//! Over a step of the [discrete gradient](crate::integrate::discrete_gradient) the moment `m = EI
+//! tau D kappa/h` acts along the mean n of the curvature, and its derivative by the curvature
+//! vector k is `EI tau/h n n^T + m (1 - n n^T)/(2 |k|)`. The tangent takes both while m resists
+//! bending further, with `N(P_g)/Q^3`, never negative, for the second, and what that has along n
+//! taken from the first: `D w <= 4 w` then, so at least a part stays, and the matrix is never less
+//! definite. Where an element straightens, m < 0, the second makes it indefinite, a strut that
+//! buckles sideways: it is left out, and the iteration is a modified one. The force is the same.
+//! The second is taken near contacts alone: it also resists rotation of the curvature, which costs
+//! nothing, and elsewhere a step is accepted with what one iteration leaves: damped ropes on rotors
+//! of 0.86 rad per step pull 1.1 % too much with it and 0.25 % without (`moving_ends.rs` of
+//! lariat-rapier).
 //!
 //! # Validity
 //!
-//! Damping ratio tau omega/2: it grows with frequency. The scalar curvature does not change when the curvature rotates about the
-//! axis: the cable may spin freely about its own axis, as an element without twist does. e = 1e-7: an element that bends by less
-//! than 6e-4 rad and spins about its axis by omega heats up, by at most 0.42 e EI tau omega^2/l in W (the maximum of phi w is
-//! 0.105 e); by nothing where it is straight or bent further.
+//! Damping ratio tau omega/2: it grows with frequency. The scalar curvature does not change when
+//! the curvature rotates about the axis: the cable may spin freely about its own axis, as an
+//! element without twist does. e = 1e-7: an element that bends by less than 6e-4 rad and spins
+//! about its axis by omega heats up, by at most 0.42 e EI tau omega^2/l in W (the maximum of phi w
+//! is 0.105 e); by nothing where it is straight or bent further.
 //!
 //! # References
 //!
-//! Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF beams by the rates of Green strain
-//! and of the scalar curvature); the vector rate is that of the linear beam.
+//! Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF
+//! beams by the rates of Green strain and of the scalar curvature); the vector rate is that of the
+//! linear beam.
 //!
 //! # Alternatives considered
 //!
-//! - The scalar rate for all curvatures (e = 0): a dissipation of g and g' alone must vanish at the straight cable, because any
-//!   transverse velocity of a straight cable is the limit of a fast spin of a slightly bent one. The force is then EI tau times the
-//!   rate along a direction that rotates arbitrarily fast where the curvature is small, and the step has to follow: 2 m of 10 mm steel
-//!   rope in 200 elements, released from horizontal in a breeze, tau = 1 ms, took 4111 steps for the first 1/60 s, against 39 for
-//!   30/60 s.
+//! - The scalar rate for all curvatures (e = 0): a dissipation of g and g' alone must vanish at the
+//!   straight cable, because any transverse velocity of a straight cable is the limit of a fast
+//!   spin of a slightly bent one. The force is then EI tau times the rate along a direction that
+//!   rotates arbitrarily fast where the curvature is small, and the step has to follow: 2 m of 10
+//!   mm steel rope in 200 elements, released from horizontal in a breeze, tau = 1 ms, took 4111
+//!   steps for the first 1/60 s, against 39 for 30/60 s.
 //! - The vector rate for all curvatures: smooth, and a spinning bent cable heats up.
 //! - Rayleigh damping by the mass matrix: it damps falling.
-//! - In steps of the discrete gradient the tangent without the stiffness across n: where an element bends, the iteration swings between two iterates. Ropes that fall on a rod took up to 1829 iterations in a
-//!   host step, now 78; without damping of bending 158. Ropes that fall on their ends into heaps up to 4683, now 913, and thrown and hanging ones without contact 2419, now 109. All of `m w_gg`, with what the stretch
-//!   has of it: not definite, and up to 15 % more iterations. That of |m|: a third more without contact. The rate of the vector where an element straightens, in the force itself: 96 in the heap, but angular momentum is not kept, and 2.5 % more is dissipated.
-//! - The exact, unsymmetric tangent in Newton's iteration: fewer iterations where drag or axial damping dominate the motion (up to
-//!   45 % at fidelity game), 0 to 10 % fewer elsewhere, while it stores nine blocks for six per element and is factored by L U in
-//!   place of L D L^T.
+//! - In steps of the discrete gradient the tangent without the stiffness across n: where an element
+//!   bends, the iteration swings between two iterates. Ropes that fall on a rod took up to 1829
+//!   iterations in a host step, now 78; without damping of bending 158. Ropes that fall on their
+//!   ends into heaps up to 4683, now 913, and thrown and hanging ones without contact 2419,
+//!   now 109. All of `m w_gg`, with what the stretch has of it: not definite, and up to 15 % more
+//!   iterations. That of |m|: a third more without contact. The rate of the vector where an element
+//!   straightens, in the force itself: 96 in the heap, but angular momentum is not kept, and 2.5 %
+//!   more is dissipated.
+//! - The exact, unsymmetric tangent in Newton's iteration: fewer iterations where drag or axial
+//!   damping dominate the motion (up to 45 % at fidelity game), 0 to 10 % fewer elsewhere, while it
+//!   stores nine blocks for six per element and is factored by L U in place of L D L^T.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::curvature::{self, Point, Squared};
@@ -82,9 +98,10 @@ pub struct Damping {
 }
 
 impl Damping {
-    /// Returns the times in s that damp a mode of this angular frequency (rad/s) with this damping ratio: 2 ratio/omega, for both
-    /// kinds. Valid for a mode whose restoring force is elastic; where gravity or tension restores, less of the energy is strain. By the
-    /// number of a mode: [`Cable::damping_at_mode`](crate::coupling::Linearisation::damping_at_mode).
+    /// Returns the times in s that damp a mode of this angular frequency (rad/s) with this damping
+    /// ratio: 2 ratio/omega, for both kinds. Valid for a mode whose restoring force is elastic;
+    /// where gravity or tension restores, less of the energy is strain. By the number of a mode:
+    /// [`Cable::damping_at_mode`](crate::coupling::Linearisation::damping_at_mode).
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a ratio below 0 or a frequency that is not positive.
@@ -95,7 +112,8 @@ impl Damping {
         Ok(Damping { axial: time, bending: time })
     }
 
-    /// Returns the damping ratio of an elastic mode of this angular frequency (rad/s) by the bending time: tau omega/2.
+    /// Returns the damping ratio of an elastic mode of this angular frequency (rad/s) by the
+    /// bending time: tau omega/2.
     pub fn bending_ratio(&self, angular_frequency: f64) -> f64 {
         0.5 * self.bending * angular_frequency
     }
@@ -205,8 +223,8 @@ impl GramForce for DampingTable {
 }
 
 impl DiscreteGradientForce for DampingTable {
-    /// Every term is the square of a product with the change of the Gram numbers or of the control vectors, so the step dissipates
-    /// exactly, whatever its length.
+    /// Every term is the square of a product with the change of the Gram numbers or of the control
+    /// vectors, so the step dissipates exactly, whatever its length.
     #[inline(always)]
     fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, sum: &mut Gradient<T>) -> T {
         let mut stress = [at.rates[0].splat(0.0); 6];
@@ -248,7 +266,8 @@ impl DiscreteGradientForce for DampingTable {
 }
 
 impl DampingTable {
-    /// Visits the points of bending with the squared curvature and the factors of its scalar and vector rates.
+    /// Visits the points of bending with the squared curvature and the factors of its scalar and
+    /// vector rates.
     #[inline(always)]
     fn bending<T: Real>(&self, at: &GramStep<'_, T>, mut visit: impl FnMut(&Point, &Squared<T>, T, T)) {
         for point in &self.points {

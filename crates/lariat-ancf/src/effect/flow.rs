@@ -10,10 +10,12 @@
 //!
 //! # Validity
 //!
-//! One direction by the tables; any field by samples, which the caller takes anew as often as it changes ([`Cable::sample_flow`]) and
-//! which are held in between: of order 2 in the time between them if taken for its middle. Times are those of the cable's clock;
-//! `set_time` changes the clock, not the flow history. Tables and samples are data of the cable: serialised with it, and a copy read
-//! back continues bitwise until samples are taken again. A [`Snapshot`] holds none, as it holds no loads.
+//! One direction by the tables; any field by samples, which the caller takes anew as often as it
+//! changes ([`Cable::sample_flow`]) and which are held in between: of order 2 in the time between
+//! them if taken for its middle. Times are those of the cable's clock; `set_time` changes the
+//! clock, not the flow history. Tables and samples are data of the cable: serialised with it, and a
+//! copy read back continues bitwise until samples are taken again. A [`Snapshot`] holds none, as it
+//! holds no loads.
 //!
 //! # References
 //!
@@ -21,8 +23,9 @@
 //!
 //! # Alternatives considered
 //!
-//! A function of the user's inside the cable: it cannot be serialised, and a snapshot would not replay (for any force per length there
-//! is [`ForceDensity`], which says so). Powers and sines evaluated in the step: their last bits differ between machines.
+//! A function of the user's inside the cable: it cannot be serialised, and a snapshot would not
+//! replay (for any force per length there is [`ForceDensity`], which says so). Powers and sines
+//! evaluated in the step: their last bits differ between machines.
 //!
 //! [`Cable::sample_flow`]: crate::Cable::sample_flow
 //! [`Snapshot`]: crate::Snapshot
@@ -55,7 +58,8 @@ pub struct Flow {
     /// Time in s and factor, times ascending; empty = constant in time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<[f64; 2]>,
-    /// Velocity in m/s at the nodes, on top of the rest; empty = none. Set by [`Cable::sample_flow`](crate::Cable::sample_flow).
+    /// Velocity in m/s at the nodes, on top of the rest; empty = none. Set by
+    /// [`Cable::sample_flow`](crate::Cable::sample_flow).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub samples: Vec<Vector3<f64>>,
 }
@@ -66,8 +70,9 @@ impl Flow {
         Flow { velocity: velocity.into().0, ..Flow::default() }
     }
 
-    /// Creates wind after the power law: `velocity` (m/s) at `reference` (m) above the origin along `up`, times (height/reference)^exponent, up to
-    /// `top` (m); none below the origin. A table of 64 pieces, denser near the ground.
+    /// Creates wind after the power law: `velocity` (m/s) at `reference` (m) above the origin along
+    /// `up`, times (height/reference)^exponent, up to `top` (m); none below the origin. A table of
+    /// 64 pieces, denser near the ground.
     pub fn power_law(velocity: Vector3<f64>, up: Vector3<f64>, reference: f64, exponent: f64, top: f64) -> Self {
         let row = |i: usize| {
             let height = top * (i as f64 / (ROWS - 1) as f64).powi(3);

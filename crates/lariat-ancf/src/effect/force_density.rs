@@ -1,4 +1,5 @@
-//! A force per length written outside the crate: any function of arc length, position, velocity and time.
+//! A force per length written outside the crate: any function of arc length, position, velocity and
+//! time.
 //!
 //! # Equation
 //!
@@ -6,26 +7,30 @@
 //! F_k = int S_k f(s, r, r', t) ds        -dF_k/dx_m = int S_k S_m D ds        D = -df/dr - (dr'/dr) df/dr'
 //! ```
 //!
-//! in N per m of unstretched cable, integrated at three Gauss points per element. The step matrix takes the symmetric part of D (it
-//! is stored by one triangle); the whole of it is in [`Cable::jacobians`](crate::coupling::Linearisation::jacobians). A function that gives no derivatives
-//! gets central differences, over 1e-5 of the element's length and 1e-5 of the speed, but at least 1e-5 m/s: six further calls per
-//! point and matrix, and six more if it depends on velocity.
+//! in N per m of unstretched cable, integrated at three Gauss points per element. The step matrix
+//! takes the symmetric part of D (it is stored by one triangle); the whole of it is in
+//! [`Cable::jacobians`](crate::coupling::Linearisation::jacobians). A function that gives no
+//! derivatives gets central differences, over 1e-5 of the element's length and 1e-5 of the speed,
+//! but at least 1e-5 m/s: six further calls per point and matrix, and six more if it depends on
+//! velocity.
 //!
 //! # Validity
 //!
-//! Smooth functions that change little over a third of an element. Every implicit method steps them to its own order; explicit methods
-//! keep their order if the force does not depend on velocity (see [`explicit`](crate::integrate::explicit)), and do not know its
-//! stiffness: [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's alone. Statics follow the motion to rest, because
-//! no potential is known. The control of spurious energy is off, because the work of an unknown force cannot be told from it.
+//! Smooth functions that change little over a third of an element. Every implicit method steps them
+//! to its own order; explicit methods keep their order if the force does not depend on velocity
+//! (see [`explicit`](crate::integrate::explicit)), and do not know its stiffness:
+//! [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's
+//! alone. Statics follow the motion to rest, because no potential is known. The control of spurious
+//! energy is off, because the work of an unknown force cannot be told from it.
 //!
-//! *Snapshots.* A [`Snapshot`](crate::Snapshot) holds the state and the work that the force has done; the function stays with the
-//! cable. A *serialised* cable cannot hold a function: read back, it refuses to step until as many functions are attached again, in the
-//! same order.
+//! *Snapshots.* A [`Snapshot`](crate::Snapshot) holds the state and the work that the force has
+//! done; the function stays with the cable. A *serialised* cable cannot hold a function: read back,
+//! it refuses to step until as many functions are attached again, in the same order.
 //!
 //! # Alternatives considered
 //!
-//! No tangent where none is given: Newton's iteration then converges linearly, and not at all where the force is stiffer than the step
-//! allows.
+//! No tangent where none is given: Newton's iteration then converges linearly, and not at all where
+//! the force is stiffer than the step allows.
 
 use super::acts::{ForceInput, PointForce};
 use crate::dual::{Dual, constant};
@@ -41,9 +46,11 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
-/// A force per length of your own, for [`Cable::add_force_density`](crate::Cable::add_force_density).
+/// A force per length of your own, for
+/// [`Cable::add_force_density`](crate::Cable::add_force_density).
 pub trait ForceDensity: Debug + Send + Sync {
-    /// Returns the force in N per m of unstretched cable, world axes. It must depend on its argument alone: steps are repeated.
+    /// Returns the force in N per m of unstretched cable, world axes. It must depend on its
+    /// argument alone: steps are repeated.
     fn force(&self, at: &CablePoint) -> Vector3<f64>;
 
     /// Whether the force depends on velocity. If not, [`CablePoint::velocity`] is not always given.
@@ -60,7 +67,8 @@ pub trait ForceDensity: Debug + Send + Sync {
 pub struct CablePoint {
     /// Time in s.
     pub time: f64,
-    /// Arc length of the unstretched cable in m, from the start that the cable had when the force was attached.
+    /// Arc length of the unstretched cable in m, from the start that the cable had when the force
+    /// was attached.
     pub arc_length: f64,
     /// Position in m.
     pub position: Vector3<f64>,
@@ -77,7 +85,8 @@ pub struct ForceDerivatives {
     pub velocity: Matrix3<f64>,
 }
 
-/// A function and where the cable that it acts on begins, as arc length of the cable that it was attached to.
+/// A function and where the cable that it acts on begins, as arc length of the cable that it was
+/// attached to.
 #[derive(Clone, Debug)]
 struct Attached {
     force: Arc<dyn ForceDensity>,
@@ -182,7 +191,8 @@ pub(crate) struct ForceDensityTable {
     not_finite: Option<usize>,
 }
 
-/// A Gauss point of an element: the element's length, weights of the coordinates, and weight of the point in m.
+/// A Gauss point of an element: the element's length, weights of the coordinates, and weight of the
+/// point in m.
 struct Point {
     begin: f64,
     xi: f64,

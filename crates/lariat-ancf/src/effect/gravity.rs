@@ -6,9 +6,11 @@
 //! w = scale (rhoA - rho_f A_d) g        force per unstretched length, N/m
 //! ```
 //!
-//! rho_f A_d is the displaced mass, zero without [`buoyancy`](super::buoyancy): the scale also acts on the hydrostatic pressure that
-//! gravity makes, so a scale of zero leaves neither weight nor lift. The weight is integrated with Hermite's functions
-//! ([`load_weights`](crate::element::mass::load_weights)) into a constant vector: no work in a step.
+//! rho_f A_d is the displaced mass, zero without [`buoyancy`](super::buoyancy): the scale also acts
+//! on the hydrostatic pressure that gravity makes, so a scale of zero leaves neither weight nor
+//! lift. The weight is integrated with Hermite's functions
+//! ([`load_weights`](crate::element::mass::load_weights)) into a constant vector: no work in a
+//! step.
 //!
 //! # Validity
 //!

@@ -6,8 +6,9 @@
 //! F = int_from^to S(s)^T f ds
 //! ```
 //!
-//! f in N per m of unstretched cable, in world axes, constant: a dead load with potential -f . int r ds. The integral over Hermite's
-//! functions is exact, also for pieces that end inside an element. It enters a constant vector: no work in a step.
+//! f in N per m of unstretched cable, in world axes, constant: a dead load with potential -f . int
+//! r ds. The integral over Hermite's functions is exact, also for pieces that end inside an
+//! element. It enters a constant vector: no work in a step.
 //!
 //! # Validity
 //!
@@ -15,7 +16,8 @@
 //!
 //! # Alternatives considered
 //!
-//! Lumping on the nodes: it loses the moments on the slopes, and with them an order of the static shape.
+//! Lumping on the nodes: it loses the moments on the slopes, and with them an order of the static
+//! shape.
 
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
@@ -56,7 +58,8 @@ impl LineLoads {
         self.0.iter().map(|load| load.force).sum()
     }
 
-    /// Makes loads that reach the end of a cable of a length in m those of all cable that is paid out there.
+    /// Makes loads that reach the end of a cable of a length in m those of all cable that is paid
+    /// out there.
     pub(crate) fn extend(&mut self, length: f64) {
         self.0.iter_mut().filter(|load| load.to >= length * (1.0 - 1e-12)).for_each(|load| load.to = f64::MAX);
     }
@@ -144,7 +147,8 @@ impl Acts for LineLoads {
     }
 }
 
-/// Weights of a load per length on the piece from `a` to `b` (fractions of the length) of an element.
+/// Weights of a load per length on the piece from `a` to `b` (fractions of the length) of an
+/// element.
 fn partial_weights(length: f64, a: f64, b: f64) -> [f64; 4] {
     let mut sum = [0.0; 4];
     for (x, w) in gauss_legendre(2) {

@@ -1,8 +1,8 @@
 //! The one list of effects, and what is generated from it.
 //!
-//! An effect that is not in the list does not exist; one that is in it and forgets a method of [`Effect`] does not compile. The
-//! crates above generate their parts (components, scene keys, snapshots, counters) from the same list by
-//! [`for_each_effect`](crate::for_each_effect).
+//! An effect that is not in the list does not exist; one that is in it and forgets a method of
+//! [`Effect`] does not compile. The crates above generate their parts (components, scene keys,
+//! snapshots, counters) from the same list by [`for_each_effect`](crate::for_each_effect).
 
 use super::*;
 use core::ops::AddAssign;
@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 /// Passes the list of all effects to a macro, which generates one piece of code per effect.
 ///
-/// `for_each_effect!(callback)` expands to `callback! { {entry} {entry} ... }`, and `for_each_effect!(callback, extra tokens)` to
-/// `callback! { [extra tokens] {entry} {entry} ... }`. An entry reads
-/// `{ field: damping, type: Damping, set: set_damping, key: "damping", summary: "..." }`: the field of
-/// [`Effects`](crate::Effects), the type in `lariat_ancf` (which implements [`Effect`](crate::effect::Effect)), the setter of
-/// [`Cable`](crate::Cable), the name in files and counters, and one line of text.
+/// `for_each_effect!(callback)` expands to `callback! { {entry} {entry} ... }`, and
+/// `for_each_effect!(callback, extra tokens)` to `callback! { [extra tokens] {entry} {entry} ...
+/// }`. An entry reads `{ field: damping, type: Damping, set: set_damping, key: "damping", summary:
+/// "..." }`: the field of [`Effects`](crate::Effects), the type in `lariat_ancf` (which implements
+/// [`Effect`](crate::effect::Effect)), the setter of [`Cable`](crate::Cable), the name in files and
+/// counters, and one line of text.
 ///
 /// ```
 /// macro_rules! keys {
@@ -66,7 +67,8 @@ macro_rules! generate {
                 [$(($key, self.$field.is_some())),*].into_iter().filter_map(|(key, on)| on.then_some(key))
             }
 
-            /// Checks the parameters of all effects, and that the cable has the numbers that they need.
+            /// Checks the parameters of all effects, and that the cable has the numbers that they
+            /// need.
             ///
             /// # Errors
             /// As [`Effect::check`].
@@ -103,8 +105,8 @@ macro_rules! generate {
             }
         }
 
-        /// Counts of elements for which an effect was evaluated. Effects that act by a constant vector or by the mass matrix are
-        /// evaluated once, when they are set, and count nothing.
+        /// Counts of elements for which an effect was evaluated. Effects that act by a constant
+        /// vector or by the mass matrix are evaluated once, when they are set, and count nothing.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(default)]
         pub struct EffectCounts {
@@ -133,8 +135,9 @@ macro_rules! generate {
             }
         }
 
-        /// Work in J that effects have done on a cable since it was built; negative where they took energy from it. Zero for effects whose
-        /// energy is part of [`Energy`](crate::Energy) (gravity, buoyancy, rest shape), so that the total energy less all work is constant.
+        /// Work in J that effects have done on a cable since it was built; negative where they took
+        /// energy from it. Zero for effects whose energy is part of [`Energy`](crate::Energy)
+        /// (gravity, buoyancy, rest shape), so that the total energy less all work is constant.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         #[serde(default)]
         pub struct EffectWork {
@@ -160,8 +163,9 @@ macro_rules! generate {
                 self.force_densities += factor * other.force_densities;
             }
 
-            /// Energy in J that dissipative effects (damping and drag) took from the cable; negative where a flow drives it. What contacts and
-            /// friction lost is [`EnergyLaw::contacts`](crate::integrate::EnergyLaw::contacts).
+            /// Energy in J that dissipative effects (damping and drag) took from the cable;
+            /// negative where a flow drives it. What contacts and friction lost is
+            /// [`EnergyLaw::contacts`](crate::integrate::EnergyLaw::contacts).
             pub fn dissipated(&self) -> f64 {
                 0.0 $(- if <$type as Effect>::DISSIPATIVE { self.$field } else { 0.0 })*
             }

@@ -1,4 +1,5 @@
-//! Effects: what acts on a cable beside inertia, elasticity and point loads. One file each; what is absent costs nothing.
+//! Effects: what acts on a cable beside inertia, elasticity and point loads. One file each; what is
+//! absent costs nothing.
 //!
 //! # Equation
 //!
@@ -20,13 +21,15 @@
 //!
 //! # A new effect
 //!
-//! Write its file: parameters, an implementation of [`Effect`], and its force. Add a line to [`for_each_effect`](crate::for_each_effect).
-//! The compiler then asks for what is missing, here and in the crates above, which generate their parts from the same list.
+//! Write its file: parameters, an implementation of [`Effect`], and its force. Add a line to
+//! [`for_each_effect`](crate::for_each_effect). The compiler then asks for what is missing, here
+//! and in the crates above, which generate their parts from the same list.
 //!
 //! # Validity
 //!
-//! Effects are part of a cable's description: serialised with it, changed between steps ([`Cable::set_effects`]). Internal
-//! damping needs an implicit integrator, and explicit ones have order 2 with drag: see [`explicit`].
+//! Effects are part of a cable's description: serialised with it, changed between steps
+//! ([`Cable::set_effects`]). Internal damping needs an implicit integrator, and explicit ones have
+//! order 2 with drag: see [`explicit`].
 //!
 //! [`Cable::set_effects`]: crate::Cable::set_effects
 //! [`explicit`]: crate::integrate::explicit
@@ -67,7 +70,8 @@ use crate::section::Element;
 use core::fmt::Debug;
 use serde::{Serialize, de::DeserializeOwned};
 
-/// An effect of the list of [`for_each_effect`](crate::for_each_effect): its parameters, and all that the rest of the library has to know.
+/// An effect of the list of [`for_each_effect`](crate::for_each_effect): its parameters, and all
+/// that the rest of the library has to know.
 ///
 /// Nothing here has a default, so that nothing can be forgotten.
 pub trait Effect: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
@@ -77,7 +81,8 @@ pub trait Effect: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
     /// Checks the parameters, and that the cable has the numbers that the effect needs.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for a cable that lacks one.
+    /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for a cable
+    /// that lacks one.
     fn check(&self, cable: &Target<'_>) -> Result<(), Error>;
 
     /// Whether its force depends on velocity.

@@ -6,19 +6,23 @@
 //! F = -grad V(x)        x = S q, the point at an arc length
 //! ```
 //!
-//! Statics and implicit stages take the gradient and the Hessian at the point. A step of the discrete gradient from x0 to x1 takes
+//! Statics and implicit stages take the gradient and the Hessian at the point. A step of the
+//! discrete gradient from x0 to x1 takes
 //!
 //! ```text
 //! g = grad V(m) + (V1 - V0 - grad V(m) . d) d/|d|^2        m = (x0 + x1)/2, d = x1 - x0
 //! ```
 //!
-//! so that `g . d = V1 - V0` and the energy law holds with V in it, at any step. Its tangent is the symmetric part of dg/dx1.
+//! so that `g . d = V1 - V0` and the energy law holds with V in it, at any step. Its tangent is the
+//! symmetric part of dg/dx1.
 //!
 //! # Validity
 //!
-//! Two derivatives of V. Explicit methods do not know its stiffness: [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's
-//! alone. A [`Snapshot`](crate::Snapshot) holds the state; the function stays with the cable. A *serialised* cable cannot hold a function: read
-//! back, it refuses to step until as many potentials are added again, in the same order; they are where they were.
+//! Two derivatives of V. Explicit methods do not know its stiffness:
+//! [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's
+//! alone. A [`Snapshot`](crate::Snapshot) holds the state; the function stays with the cable. A
+//! *serialised* cable cannot hold a function: read back, it refuses to step until as many
+//! potentials are added again, in the same order; they are where they were.
 //!
 //! # References
 //!
@@ -34,7 +38,8 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// An energy of your own of a point of a cable, for [`Cable::add_potential`](crate::Cable::add_potential).
+/// An energy of your own of a point of a cable, for
+/// [`Cable::add_potential`](crate::Cable::add_potential).
 pub trait Potential: Debug + Send + Sync {
     /// Returns the energy V in J at a position in m, world axes.
     fn energy(&self, position: &Vector3<f64>) -> f64;
@@ -53,8 +58,8 @@ pub trait Potential: Debug + Send + Sync {
     }
 }
 
-/// Returns the discrete gradient over a step that moves the point from `start` by `change`, and the symmetric part of its derivative by the
-/// change.
+/// Returns the discrete gradient over a step that moves the point from `start` by `change`, and the
+/// symmetric part of its derivative by the change.
 pub(crate) fn over_step(
     potential: &dyn Potential,
     start: &Vector3<f64>,
@@ -117,7 +122,8 @@ pub(crate) struct Potentials {
 }
 
 impl Potentials {
-    /// Adds one, in place of the first that is missing, where that was; `passed` is the length in m that came through the eye at the start.
+    /// Adds one, in place of the first that is missing, where that was; `passed` is the length in m
+    /// that came through the eye at the start.
     pub fn add(&mut self, arc_length: f64, passed: f64, potential: Arc<dyn Potential>) {
         match self.list.iter_mut().find(|own| own.potential.is_none()) {
             Some(own) => own.potential = Some(potential),
@@ -130,12 +136,14 @@ impl Potentials {
         self.list.iter().filter(|own| own.potential.is_none()).count()
     }
 
-    /// Puts them where their material is on a cable of this length (m) after so much came through the eye at the start.
+    /// Puts them where their material is on a cable of this length (m) after so much came through
+    /// the eye at the start.
     pub fn move_to(&mut self, passed: f64, length: f64) {
         self.list.iter_mut().for_each(|own| own.arc_length = (own.origin + passed).clamp(0.0, length));
     }
 
-    /// Cuts the cable at an arc length (m): keeps those before it, and returns the others, on a cable that begins there.
+    /// Cuts the cable at an arc length (m): keeps those before it, and returns the others, on a
+    /// cable that begins there.
     pub fn cut(&mut self, at: f64) -> Self {
         let (list, mut rest): (_, Vec<_>) =
             core::mem::take(&mut self.list).into_iter().partition(|own| own.arc_length <= at);
@@ -166,7 +174,8 @@ mod tests {
         }
     }
 
-    /// The product of the discrete gradient and the change is the change of the energy, and the tangent is its derivative.
+    /// The product of the discrete gradient and the change is the change of the energy, and the
+    /// tangent is its derivative.
     ///
     /// *Source.* The energy at both ends; central differences.
     #[test]

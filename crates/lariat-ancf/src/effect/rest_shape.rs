@@ -1,4 +1,5 @@
-//! Rest shape: stress-free stretch and curvature of a cable that was coiled, or built in under pre-strain.
+//! Rest shape: stress-free stretch and curvature of a cable that was coiled, or built in under
+//! pre-strain.
 //!
 //! # Equation
 //!
@@ -7,34 +8,38 @@
 //! U_bending = EI l/2 sum_q w_q (S_q - S_0)^2,           S = sqrt(kappa^2 + k_r^2), S_0 = sqrt(kappa_0^2 + k_r^2), k_r = kappa_0/100
 //! ```
 //!
-//! The square of kappa is the bending rule's; the rest is added here at the points of the rule (three for T1, T2). Every shape of
-//! curvature kappa_0 is stress-free, to the last bit for Gauss rules. k_r rounds the cusp of the energy at the straight cable:
-//! between kappa_0/2 and 2 kappa_0 moments change by less than 0.5 % of EI kappa_0.
+//! The square of kappa is the bending rule's; the rest is added here at the points of the rule
+//! (three for T1, T2). Every shape of curvature kappa_0 is stress-free, to the last bit for Gauss
+//! rules. k_r rounds the cusp of the energy at the straight cable: between kappa_0/2 and 2 kappa_0
+//! moments change by less than 0.5 % of EI kappa_0.
 //!
-//! The tangent is exact beyond kappa_0. Below, the geometric stiffness of the compressive bending moment across the curvature is
-//! left out, which keeps the step matrix definite and costs Newton iterations; [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) has all
-//! of it.
+//! The tangent is exact beyond kappa_0. Below, the geometric stiffness of the compressive bending
+//! moment across the curvature is left out, which keeps the step matrix definite and costs Newton
+//! iterations; [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) has all of it.
 //!
 //! # Validity
 //!
-//! The *direction* of the natural curvature is free: a coil may unwind into any curve of the same curvature, out of plane without
-//! resistance, and one that passes through the straight line may come out on the other side. A cable that is *straighter* than
-//! kappa_0 has therefore no stiffness across its plane, or a negative one: it may wrinkle at the size of the mesh, and one that is
-//! pulled straight vibrates at that size, which error control follows (`lariat stability --case "hanging 1e4"`: 22 times the steps
-//! with effects). Draw its start shape finely, because the corners of a coarse polyline stay. Meant for cables that stay near one
-//! plane or beyond kappa_0. The straight cable is an unstable equilibrium. f_0 within a few percent of 1: EA counts per length of
-//! the reference.
+//! The *direction* of the natural curvature is free: a coil may unwind into any curve of the same
+//! curvature, out of plane without resistance, and one that passes through the straight line may
+//! come out on the other side. A cable that is *straighter* than kappa_0 has therefore no stiffness
+//! across its plane, or a negative one: it may wrinkle at the size of the mesh, and one that is
+//! pulled straight vibrates at that size, which error control follows (`lariat stability --case
+//! "hanging 1e4"`: 22 times the steps with effects). Draw its start shape finely, because the
+//! corners of a coarse polyline stay. Meant for cables that stay near one plane or beyond kappa_0.
+//! The straight cable is an unstable equilibrium. f_0 within a few percent of 1: EA counts per
+//! length of the reference.
 //!
 //! # References
 //!
-//! The energy of an elastic rod without twist: with a section that rotates freely about the axis, 1/2 EI |kappa - kappa_0 n|^2 is
-//! least where the natural direction n lies along kappa, which leaves 1/2 EI (kappa - kappa_0)^2 (Langer & Singer 1996, SIAM Review
-//! 38:605, on the twist-free frame).
+//! The energy of an elastic rod without twist: with a section that rotates freely about the axis,
+//! 1/2 EI |kappa - kappa_0 n|^2 is least where the natural direction n lies along kappa, which
+//! leaves 1/2 EI (kappa - kappa_0)^2 (Langer & Singer 1996, SIAM Review 38:605, on the twist-free
+//! frame).
 //!
 //! # Alternatives considered
 //!
-//! A natural curvature with a direction: it needs the twist that this element does not have. k_r = 0: the tangent is infinite at the
-//! straight cable.
+//! A natural curvature with a direction: it needs the twist that this element does not have. k_r =
+//! 0: the tangent is infinite at the straight cable.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::curvature::{self, Point};
@@ -54,9 +59,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RestPiece {
-    /// Arc length of the unstretched cable where the piece begins, in m; it acts on the elements whose middle lies in it.
+    /// Arc length of the unstretched cable where the piece begins, in m; it acts on the elements
+    /// whose middle lies in it.
     pub from: f64,
-    /// Stretch without stress f_0, > 0; 1 = unstretched, above 1 = longer than its reference length.
+    /// Stretch without stress f_0, > 0; 1 = unstretched, above 1 = longer than its reference
+    /// length.
     pub stretch: f64,
     /// Curvature without stress kappa_0 in 1/m, >= 0.
     pub curvature: f64,
@@ -76,7 +83,8 @@ impl RestShape {
         RestShape { pieces: vec![RestPiece { from: 0.0, stretch: 1.0, curvature }] }
     }
 
-    /// Creates a stress-free stretch of the whole cable: below 1 it is under tension at its reference length.
+    /// Creates a stress-free stretch of the whole cable: below 1 it is under tension at its
+    /// reference length.
     pub fn stretched(stretch: f64) -> Self {
         RestShape { pieces: vec![RestPiece { from: 0.0, stretch, curvature: 0.0 }] }
     }
@@ -306,7 +314,8 @@ pub(crate) struct NaturalCurvature<T> {
 impl NaturalCurvature<f64> {
     pub fn new(curvature: f64, length: f64) -> Self {
         let half = 0.5 * curvature * length;
-        // an element without natural curvature among others that have one: no force, and no zero under the root
+        // an element without natural curvature among others that have one: no force, and no zero
+        // under the root
         let rounding = (BLUNTING * half).powi(2).max(f64::MIN_POSITIVE);
         let target = if curvature == 0.0 { 0.0 } else { (half * half + rounding).sqrt() };
         NaturalCurvature { target, rounding }
@@ -322,7 +331,8 @@ impl NaturalCurvature<f64> {
         points.iter().map(|point| point.weight * (constant - 2.0 * self.target * root(point))).sum()
     }
 
-    /// 1 - S_0/S: the factor of EI kappa that is the moment, for a curvature in 1/m on an element of this length.
+    /// 1 - S_0/S: the factor of EI kappa that is the moment, for a curvature in 1/m on an element
+    /// of this length.
     pub fn moment_factor(&self, curvature: f64, length: f64) -> f64 {
         let half = 0.5 * curvature * length;
         1.0 - self.target / (half * half + self.rounding).sqrt()

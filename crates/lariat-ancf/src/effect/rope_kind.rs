@@ -2,24 +2,24 @@
 //!
 //! # Equation
 //!
-//! A kind of rope has a damping ratio zeta, a fraction of critical damping. Internal damping after Kelvin
-//! and Voigt has the ratio tau omega/2 at the angular frequency omega, so a ratio fixes tau at one
-//! frequency:
+//! A kind of rope has a damping ratio zeta, a fraction of critical damping. Internal damping after
+//! Kelvin and Voigt has the ratio tau omega/2 at the angular frequency omega, so a ratio fixes tau
+//! at one frequency:
 //!
 //! ```text
 //! tau = 2 zeta/omega        axial omega = pi/int sqrt(m/EA) ds        bending omega = (10 pi/L)^2 sqrt(EI/m)
 //! ```
 //!
-//! for stretch that of the lowest axial mode of a cable with both ends held; for bending that of a beam of
-//! ten half waves over the length, without tension: the wiggles that one sees on a rope.
+//! for stretch that of the lowest axial mode of a cable with both ends held; for bending that of a
+//! beam of ten half waves over the length, without tension: the wiggles that one sees on a rope.
 //!
 //! # Validity
 //!
-//! The friction of wires and fibres, from which the damping of ropes comes, hardly depends on frequency,
-//! while this ratio grows with it: slower modes are damped less than named, faster ones more. A load M on
-//! a rope of length L moves at sqrt(EA/(L M)), far below the axial mode of the rope itself: ask for that
-//! frequency ([`RopeKind::damping_at`]). Ratios depend on load, amplitude, age and lubrication by a factor
-//! of several.
+//! The friction of wires and fibres, from which the damping of ropes comes, hardly depends on
+//! frequency, while this ratio grows with it: slower modes are damped less than named, faster ones
+//! more. A load M on a rope of length L moves at sqrt(EA/(L M)), far below the axial mode of the
+//! rope itself: ask for that frequency ([`RopeKind::damping_at`]). Ratios depend on load,
+//! amplitude, age and lubrication by a factor of several.
 //!
 //! # References
 //!
@@ -33,8 +33,8 @@
 //!
 //! # Alternatives considered
 //!
-//! Friction with hysteresis: a ratio that does not depend on frequency, at the price of internal state in
-//! every element.
+//! Friction with hysteresis: a ratio that does not depend on frequency, at the price of internal
+//! state in every element.
 
 use super::Damping;
 use crate::error::{Error, nearest, require};
@@ -95,8 +95,8 @@ impl RopeKind {
         }
     }
 
-    /// Returns the damping of a cable of this kind with one section over its `length` (m): the named ratio at
-    /// its lowest axial mode, and at bending in ten half waves.
+    /// Returns the damping of a cable of this kind with one section over its `length` (m): the
+    /// named ratio at its lowest axial mode, and at bending in ten half waves.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a length that is not positive and finite.

@@ -1,5 +1,5 @@
-//! The tables of all effects of a cable, made once when they are set: what an evaluation of the force reads. An effect that is absent, or
-//! that does not act in a place, leaves no code there.
+//! The tables of all effects of a cable, made once when they are set: what an evaluation of the
+//! force reads. An effect that is absent, or that does not act in a place, leaves no code there.
 
 use super::acts::*;
 use super::*;
@@ -124,7 +124,8 @@ macro_rules! generate {
                 false $(|| self.$field.as_ref().is_some_and(|table| table.dissipates()))*
             }
 
-            /// Power in W that each effect gives to an element with velocities `v` of the control vectors.
+            /// Power in W that each effect gives to an element with velocities `v` of the control
+            /// vectors.
             pub fn add_power(&self, at: &GramState<'_, f64>, v: &Control<f64>, power: &mut EffectWork) {
                 $(if let Some(table) = &self.$field { power.$field += table.power(at, v); })*
             }
@@ -154,8 +155,8 @@ macro_rules! generate {
         }
 
         impl PointTables {
-            /// Adds the generalised forces of all effects to `out`, and their negative derivatives to `matrix` if that is asked for;
-            /// counts the evaluation of `elements` elements.
+            /// Adds the generalised forces of all effects to `out`, and their negative derivatives
+            /// to `matrix` if that is asked for; counts the evaluation of `elements` elements.
             pub fn add(
                 &mut self,
                 level: Level,
@@ -170,8 +171,9 @@ macro_rules! generate {
                 })*
             }
 
-            /// Adds the generalised forces of all effects over a step to `out`, b h^2 times their negative derivatives to `matrix` if that is
-            /// asked for, and without it their work over the change of the coordinates to `work`; `force` is a buffer. Counts the
+            /// Adds the generalised forces of all effects over a step to `out`, b h^2 times their
+            /// negative derivatives to `matrix` if that is asked for, and without it their work
+            /// over the change of the coordinates to `work`; `force` is a buffer. Counts the
             /// evaluation of `elements` elements.
             pub fn add_over_step(
                 &mut self,

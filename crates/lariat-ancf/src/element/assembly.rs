@@ -3,7 +3,8 @@
 use crate::linalg::BlockTridiagonal;
 use nalgebra::{Matrix3, Vector3};
 
-/// Adds a force or impulse, whose work is on the vector with these weights, to the rows of an element.
+/// Adds a force or impulse, whose work is on the vector with these weights, to the rows of an
+/// element.
 #[inline]
 pub(crate) fn add_force(rows: &mut [f64], element: usize, weights: &[f64; 4], force: &Vector3<f64>) {
     let out = &mut rows[6 * element..6 * element + 12];

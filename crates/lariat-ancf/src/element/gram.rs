@@ -8,10 +8,10 @@
 //! r'' = (2/l) [ (3 xi - 2) d0 + (1 - 2 xi) d1 + (3 xi - 1) d2 ]
 //! ```
 //!
-//! (the Bernstein control vectors are c0 = d0, c1 = d1 - d0 - d2, c2 = d2; the d basis spans the same space and
-//! scatters to the nodes without combinations). An elastic energy that does not change under rotation depends
-//! on the *Gram numbers* alone, g = (d0.d0, d0.d1, d0.d2, d1.d1, d1.d2, d2.d2), so an elastic force model is a
-//! scalar function U(g):
+//! (the Bernstein control vectors are c0 = d0, c1 = d1 - d0 - d2, c2 = d2; the d basis spans the
+//! same space and scatters to the nodes without combinations). An elastic energy that does not
+//! change under rotation depends on the *Gram numbers* alone, g = (d0.d0, d0.d1, d0.d2, d1.d1,
+//! d1.d2, d2.d2), so an elastic force model is a scalar function U(g):
 //!
 //! ```text
 //! dU/dd_i         = sum_j n_ij d_j                            n_ii = 2 dU/dg_ii,  n_ij = dU/dg_ij
@@ -20,11 +20,12 @@
 //!
 //! The arrays called `n` and `h` in this crate are these weighted derivatives.
 //!
-//! *Source.* Element: Bulin & Hajzman, "Various Strategies of Elastic Forces Evaluation in the ANCF"; Gerstmayr &
-//! Shabana 2006. That frame indifference reduces U to the Gram matrix is the first fundamental theorem of
-//! invariant theory for O(3) (Weyl 1946). *Validity.* Any element state.
-//! *Rejected.* Shape-function matrices with 12x12 products (ten times the work), and tangents by finite differences
-//! (Chrono's choice; they fail where the element is straight, which is where these are exact).
+//! *Source.* Element: Bulin & Hajzman, "Various Strategies of Elastic Forces Evaluation in the
+//! ANCF"; Gerstmayr & Shabana 2006. That frame indifference reduces U to the Gram matrix is the
+//! first fundamental theorem of invariant theory for O(3) (Weyl 1946). *Validity.* Any element
+//! state. *Rejected.* Shape-function matrices with 12x12 products (ten times the work), and
+//! tangents by finite differences (Chrono's choice; they fail where the element is straight, which
+//! is where these are exact).
 
 use crate::Real;
 
@@ -32,7 +33,8 @@ use crate::Real;
 pub type Control<T> = [[T; 3]; 3];
 /// Six numbers, one per pair (00, 01, 02, 11, 12, 22).
 pub type Six<T> = [T; 6];
-/// Upper triangle of a symmetric 6x6 matrix, row by row: index of (a, b), a <= b, is [`upper`]`(a, b)`.
+/// Upper triangle of a symmetric 6x6 matrix, row by row: index of (a, b), a <= b, is [`upper`]`(a,
+/// b)`.
 pub type Upper<T> = [T; 21];
 
 /// Weights of the pairs: a repeated index counts twice.
@@ -85,7 +87,8 @@ pub fn gradient<T: Real>(n: &Six<T>, d: &Control<T>) -> Control<T> {
     out
 }
 
-/// Product of a weighted gradient and a change of the Gram numbers: the first-order change of the energy.
+/// Product of a weighted gradient and a change of the Gram numbers: the first-order change of the
+/// energy.
 #[inline(always)]
 pub fn contract<T: Real>(n: &Six<T>, change: &Six<T>) -> T {
     (n[0] * change[0] + n[3] * change[3] + n[5] * change[5]) * 0.5
@@ -94,8 +97,9 @@ pub fn contract<T: Real>(n: &Six<T>, change: &Six<T>) -> T {
         + n[4] * change[4]
 }
 
-/// Second derivative of the energy with respect to the control vectors (i, k): a 3x3 block `[row][column]`.
-/// On the diagonal, i = k, the block is symmetric and only its upper triangle is computed and then copied.
+/// Second derivative of the energy with respect to the control vectors (i, k): a 3x3 block
+/// `[row][column]`. On the diagonal, i = k, the block is symmetric and only its upper triangle is
+/// computed and then copied.
 #[inline(always)]
 pub fn hessian_block<T: Real>(i: usize, k: usize, n: &Six<T>, h: &Upper<T>, d: &Control<T>) -> [[T; 3]; 3] {
     // y_m = sum_n h_(im)(kn) d_n, then block = sum_m d_m y_m^T + n_ik I

@@ -1,14 +1,17 @@
-//! Energy, force and tangent of one element for a pair of rules and the effects that act on Gram numbers.
+//! Energy, force and tangent of one element for a pair of rules and the effects that act on Gram
+//! numbers.
 //!
 //! # Equation
 //!
-//! `U = EA l/8 (g.A.g - 2 a.g + 1) + (2 EI/l) u(g)` ([`axial`](crate::element::axial), [`bending`](crate::element::bending)); derivatives with respect to the
-//! control vectors by [`gram`](super::gram). The nodes follow by the constant map d1 = 3 (r_j - r_i)/l, done where the result is
-//! scattered.
+//! `U = EA l/8 (g.A.g - 2 a.g + 1) + (2 EI/l) u(g)` ([`axial`](crate::element::axial),
+//! [`bending`](crate::element::bending)); derivatives with respect to the control vectors by
+//! [`gram`](super::gram). The nodes follow by the constant map d1 = 3 (r_j - r_i)/l, done where the
+//! result is scattered.
 //!
 //! # Validity
 //!
-//! Any element state. Generic over [`Real`]: one element in `f64` or in dual numbers, eight in lanes.
+//! Any element state. Generic over [`Real`]: one element in `f64` or in dual numbers, eight in
+//! lanes.
 
 use super::gram::{Control, Six, Upper, gradient, gram, gram_rates, hessian_block};
 use super::step::ElementStep;
@@ -25,7 +28,8 @@ pub struct Stiffness<T> {
     pub bending: T,
 }
 
-/// Second derivatives with respect to the control vectors: the 3x3 blocks (0,0), (0,1), (0,2), (1,1), (1,2), (2,2).
+/// Second derivatives with respect to the control vectors: the 3x3 blocks (0,0), (0,1), (0,2),
+/// (1,1), (1,2), (2,2).
 pub type Blocks<T> = [[[T; 3]; 3]; 6];
 
 /// Axial and bending energy in J.
@@ -129,18 +133,19 @@ pub(crate) struct GramStep<'a, T> {
     pub rates: Six<T>,
     /// 1/h in 1/s.
     pub rate: f64,
-    /// Factor on the [stiffness of damping across the curvature](crate::effect::damping) in the tangent: 1 where contacts are near, else 0.
+    /// Factor on the [stiffness of damping across the curvature](crate::effect::damping) in the
+    /// tangent: 1 where contacts are near, else 0.
     pub across: f64,
 }
 
 /// An effect with discrete gradients.
 pub(crate) trait DiscreteGradientForce {
-    /// Adds the pairs of its discrete gradient over a step, and returns the power in W that it dissipates, without that of the pairs
-    /// that act on velocities.
+    /// Adds the pairs of its discrete gradient over a step, and returns the power in W that it
+    /// dissipates, without that of the pairs that act on velocities.
     fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, sum: &mut Gradient<T>) -> T;
 
-    /// Adds the derivatives of the pairs by the change of the Gram numbers, without what would make the matrix indefinite: pairs of the
-    /// geometric stiffness and second derivatives.
+    /// Adds the derivatives of the pairs by the change of the Gram numbers, without what would make
+    /// the matrix indefinite: pairs of the geometric stiffness and second derivatives.
     fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>);
 
     /// Adds f_0^2 - 1, f_0 the stretch without stress.
@@ -222,7 +227,8 @@ impl<B: Bending, E: GramForce> Kernel<'_, B, E> {
         sum.force(state)
     }
 
-    /// Negative force on the control vectors, in N m, and its derivatives; `rate` = d velocity/d position in 1/s.
+    /// Negative force on the control vectors, in N m, and its derivatives; `rate` = d velocity/d
+    /// position in 1/s.
     #[inline(always)]
     pub fn force_and_tangent<T: Real, L: Load<T>>(
         &self,

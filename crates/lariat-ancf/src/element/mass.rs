@@ -2,7 +2,8 @@
 //!
 //! # Equation
 //!
-//! `M = rho A l int S^T S dxi`, S the Hermite functions of [`shape`](super::shape). It is constant, and the same 4x4 matrix for x, y and z.
+//! `M = rho A l int S^T S dxi`, S the Hermite functions of [`shape`](super::shape). It is constant,
+//! and the same 4x4 matrix for x, y and z.
 //!
 //! # References
 //!

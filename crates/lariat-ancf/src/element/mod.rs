@@ -1,7 +1,10 @@
-//! One spatial two-node ANCF cable element with 12 nodal coordinates (r_i, t_i, r_j, t_j), t = dr/dx.
+//! One spatial two-node ANCF cable element with 12 nodal coordinates (r_i, t_i, r_j, t_j), t =
+//! dr/dx.
 //!
-//! - [`gram`]: control vectors, Gram numbers, and how a scalar function of them becomes force and tangent
-//! - [`kernel`]: energy, force and tangent of an element for any pair of rules, over any [`Real`](crate::Real)
+//! - [`gram`]: control vectors, Gram numbers, and how a scalar function of them becomes force and
+//!   tangent
+//! - [`kernel`]: energy, force and tangent of an element for any pair of rules, over any
+//!   [`Real`](crate::Real)
 //! - [`shape`]: shape functions and their derivatives
 //! - [`mass`]: the consistent mass matrix in closed form
 //! - `assembly`: forces at points, added to the coordinates of the nodes

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! `r(xi) = s1 r_i + s2 l t_i + s3 r_j + s4 l t_j`, `s1 = 1 - 3 xi^2 + 2 xi^3`, `s2 = xi - 2 xi^2 + xi^3`, `s3 = 3 xi^2 - 2 xi^3`,
-//! `s4 = xi^3 - xi^2`. Element coordinates are four 3-vectors (r_i, t_i, r_j, t_j), t = dr/dx dimensionless.
+//! `r(xi) = s1 r_i + s2 l t_i + s3 r_j + s4 l t_j`, `s1 = 1 - 3 xi^2 + 2 xi^3`, `s2 = xi - 2 xi^2 +
+//! xi^3`, `s3 = 3 xi^2 - 2 xi^3`, `s4 = xi^3 - xi^2`. Element coordinates are four 3-vectors (r_i,
+//! t_i, r_j, t_j), t = dr/dx dimensionless.
 //!
 //! # References
 //!

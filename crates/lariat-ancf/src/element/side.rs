@@ -1,9 +1,11 @@
-//! The two ends of a cable at which material can flow, and the mirror that makes the one of the other.
+//! The two ends of a cable at which material can flow, and the mirror that makes the one of the
+//! other.
 //!
 //! # Equation
 //!
-//! Seen from its far node, the first element of a cable is the last of the reversed one: `(r_i, t_i, r_j, t_j) -> (r_j, -t_j, r_i, -t_i)`.
-//! The map is its own inverse and its own transpose, so coordinates, velocities, forces and momenta take the same one.
+//! Seen from its far node, the first element of a cable is the last of the reversed one: `(r_i,
+//! t_i, r_j, t_j) -> (r_j, -t_j, r_i, -t_i)`. The map is its own inverse and its own transpose, so
+//! coordinates, velocities, forces and momenta take the same one.
 //!
 //! # Validity
 //!
@@ -11,7 +13,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Layout: position of each local vector among (r_i, t_i, r_j, t_j) of the cable, and its sign, at the start.
+/// Layout: position of each local vector among (r_i, t_i, r_j, t_j) of the cable, and its sign, at
+/// the start.
 const MIRROR: [(usize, f64); 4] = [(2, 1.0), (3, -1.0), (0, 1.0), (1, -1.0)];
 
 /// An end of a cable.
@@ -44,7 +47,8 @@ impl Side {
         }
     }
 
-    /// Returns the vectors of the element at this end from those of a cable, as seen from its far node.
+    /// Returns the vectors of the element at this end from those of a cable, as seen from its far
+    /// node.
     #[inline]
     pub fn gather(self, x: &[f64]) -> [f64; 12] {
         match self {
@@ -66,7 +70,8 @@ impl Side {
         }
     }
 
-    /// Returns the entry of a table over (r_i, t_i, r_j, t_j) of the cable from that over the vectors as seen from the far node.
+    /// Returns the entry of a table over (r_i, t_i, r_j, t_j) of the cable from that over the
+    /// vectors as seen from the far node.
     pub fn entry(self, local: impl Fn(usize, usize) -> f64, a: usize, b: usize) -> f64 {
         match self {
             Side::End => local(a, b),

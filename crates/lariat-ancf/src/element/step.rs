@@ -2,17 +2,20 @@
 //!
 //! # Equation
 //!
-//! The Gram numbers g are quadratic in the control vectors d. With the mean `dm = (d0 + d1)/2` and the change `D d = d1 - d0` of a step
+//! The Gram numbers g are quadratic in the control vectors d. With the mean `dm = (d0 + d1)/2` and
+//! the change `D d = d1 - d0` of a step
 //!
 //! ```text
 //! D g_ij = dm_i . D d_j + dm_j . D d_i                  (exact)
 //! ```
 //!
-//! so for any pairs n with `n . D g = D U + loss` the force `sum_j n_ij dm_j` on the control vectors does the work D U + loss over the
-//! step. It sums to zero over the nodes and has no moment about the mean configuration.
+//! so for any pairs n with `n . D g = D U + loss` the force `sum_j n_ij dm_j` on the control
+//! vectors does the work D U + loss over the step. It sums to zero over the nodes and has no moment
+//! about the mean configuration.
 //!
-//! Numerical dissipation is that of the one-leg G-stable formula ([`discrete_gradient`](crate::integrate::discrete_gradient)), with the
-//! change `O x` of the step before:
+//! Numerical dissipation is that of the one-leg G-stable formula
+//! ([`discrete_gradient`](crate::integrate::discrete_gradient)), with the change `O x` of the step
+//! before:
 //!
 //! ```text
 //! axial     U = EA l/8 y.A.y, y = g - (1,3,1,9,3,1)     g^ = g0 + b D g - a O g, b = 1/2 + a
@@ -20,12 +23,14 @@
 //! bending   + a (2EI/l) sum_j rho_ij (D d_j - O d_j)     the same, in the norm rho of rule T1
 //! ```
 //!
-//! with `|y|^2 = EA l/4 y.A.y` and `|d|^2 = 2 (2EI/l) rho . gram(d)`. (1,3,1,9,3,1) are the Gram numbers of the straight unstretched element,
-//! where every axial rule is zero; so no rule needs a factorisation of A.
+//! with `|y|^2 = EA l/4 y.A.y` and `|d|^2 = 2 (2EI/l) rho . gram(d)`. (1,3,1,9,3,1) are the Gram
+//! numbers of the straight unstretched element, where every axial rule is zero; so no rule needs a
+//! factorisation of A.
 //!
 //! # References
 //!
-//! Gonzalez, J. Nonlinear Sci. 6 (1996) 449, and CMAME 190 (2000) 1763; Simo & Tarnow, ZAMP 43 (1992) 757; Dahlquist, BIT 18 (1978) 384.
+//! Gonzalez, J. Nonlinear Sci. 6 (1996) 449, and CMAME 190 (2000) 1763; Simo & Tarnow, ZAMP 43
+//! (1992) 757; Dahlquist, BIT 18 (1978) 384.
 
 use super::gram::{Control, Six, dot, gram, gram_rates};
 use crate::Real;
@@ -53,8 +58,8 @@ pub struct ElementStep<T> {
 }
 
 impl<T: Real> ElementStep<T> {
-    /// From the control vectors at the beginning, their change, and their change in the step before, of which the share `kept`
-    /// counts.
+    /// From the control vectors at the beginning, their change, and their change in the step
+    /// before, of which the share `kept` counts.
     #[inline(always)]
     pub fn new(d: &Control<T>, change: &Control<T>, before: &Control<T>, kept: f64) -> Self {
         let (mean, middle_before) = (shifted(d, change, 0.5), shifted(d, before, -0.5));

@@ -1,10 +1,11 @@
-//! The element at the eye of a reel: material enters it at its last node, and its length is a coordinate. At the start of a cable it is
-//! [mirrored](super::side).
+//! The element at the eye of a reel: material enters it at its last node, and its length is a
+//! coordinate. At the start of a cable it is [mirrored](super::side).
 //!
 //! # Equation
 //!
-//! y is the material distance from the first node, `xi = y/l`, `D = diag(1, l, 1, l)`, N the Hermite functions, P = diag(0, 1, 0, 1). The
-//! motion of real particles is linear in the nodal coordinates e:
+//! y is the material distance from the first node, `xi = y/l`, `D = diag(1, l, 1, l)`, N the
+//! Hermite functions, P = diag(0, 1, 0, 1). The motion of real particles is linear in the nodal
+//! coordinates e:
 //!
 //! ```text
 //! r(y, t) = S(y; l(t)) e(t)      S = N D      S_l = (1/l) (N P - xi N') D      S_ll = (1/l^2) (2 xi N' + xi^2 N'' - 2 xi N' P) D
@@ -15,22 +16,24 @@
 //! B = e.[G^T e'' + 2 l' K e' + (l'' K + l'^2 J) e] + dU/dl - rho (w^ D e).g      J = (rho/l^2) D J^ D
 //! ```
 //!
-//! B is the force that the inertia, the strain energy and the weight of the element exert on its length; dU/dl is at fixed e. The
-//! tables are integrals of products of polynomials.
+//! B is the force that the inertia, the strain energy and the weight of the element exert on its
+//! length; dU/dl is at fixed e. The tables are integrals of products of polynomials.
 //!
 //! # Validity
 //!
-//! Any motion; all other elements are made of the same particles for ever. The winch's pull on the cable at the eye is
-//! `F = -B - 1/2 rho l'^2 (f^2 - 1)`, f the stretch there, for a drum that runs with the rate l'.
+//! Any motion; all other elements are made of the same particles for ever. The winch's pull on the
+//! cable at the eye is `F = -B - 1/2 rho l'^2 (f^2 - 1)`, f the stretch there, for a drum that runs
+//! with the rate l'.
 //!
 //! # References
 //!
-//! Own derivation, checked against differences of S(y; l) e and quadrature below. Elements with flowing material: Peng, Wei & Zhou,
-//! Appl. Math. Mech. 38 (2017) 1785.
+//! Own derivation, checked against differences of S(y; l) e and quadrature below. Elements with
+//! flowing material: Peng, Wei & Zhou, Appl. Math. Mech. 38 (2017) 1785.
 //!
 //! # Alternatives considered
 //!
-//! - A mass matrix of the momentary length without G, H, K: wrong by the thrust of the entering mass.
+//! - A mass matrix of the momentary length without G, H, K: wrong by the thrust of the entering
+//!   mass.
 //! - All nodes at rest in space: every element then has these terms.
 //! - Releasing node by node, or a rest length without its mass: jumps, and the wrong mass.
 
@@ -146,14 +149,16 @@ impl<T: Real> VariableLength<T> {
         self.weighted([(self.extent.rate, &G)])
     }
 
-    /// Returns `l' G^T` and `l'^2 K`, which give the derivative of the kinetic energy by the coordinates.
+    /// Returns `l' G^T` and `l'^2 K`, which give the derivative of the kinetic energy by the
+    /// coordinates.
     #[inline(always)]
     pub fn gradient_matrices(&self) -> [Table<T>; 2] {
         let Extent { length, rate, .. } = self.extent;
         [self.weighted([(rate, &G_T)]), self.weighted([(rate * rate / length, &K)])]
     }
 
-    /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in J.
+    /// Returns the kinetic energy beyond that of the mass matrix, `l' v.G q + 1/2 l'^2 q.K q`, in
+    /// J.
     pub fn kinetic_energy(&self, q: &[T; 12], v: &[T; 12]) -> T {
         let [by_velocity, by_position] = self.gradient_matrices();
         let mut force = [self.extent.rate.splat(0.0); 12];
@@ -162,7 +167,8 @@ impl<T: Real> VariableLength<T> {
         dot(q, &force)
     }
 
-    /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the coordinates.
+    /// Returns B without the strain energy, in N: inertia and weight, with accelerations `a` of the
+    /// coordinates.
     #[inline(always)]
     pub fn length_force<U: Over<T>>(&self, [q, v, a]: [&[U; 12]; 3], weight: &[f64; 3]) -> U {
         let Extent { length, rate, acceleration } = self.extent;
@@ -237,7 +243,8 @@ mod tests {
         core::array::from_fn(|x| (0..4).map(|k| s[k] * e[3 * k + x]).sum())
     }
 
-    /// Velocity and acceleration of a material point by differences of its position in time: S(y; l(t)) e(t) is all that is used.
+    /// Velocity and acceleration of a material point by differences of its position in time: S(y;
+    /// l(t)) e(t) is all that is used.
     fn motion(y: f64, [q, v, a]: &[[f64; 12]; 3], feed: &Extent) -> [[f64; 3]; 2] {
         let h = 1e-3;
         let place = |t: f64| {
@@ -252,9 +259,11 @@ mod tests {
         [sum(first, 60.0 * h), sum(second, 180.0 * h * h)]
     }
 
-    /// Force, momentum, kinetic energy and the force on the length are the integrals of what the particles do.
+    /// Force, momentum, kinetic energy and the force on the length are the integrals of what the
+    /// particles do.
     ///
-    /// *Source.* D'Alembert: generalised force of inertia = int rho a . dr, by Gauss points and differences in time.
+    /// *Source.* D'Alembert: generalised force of inertia = int rho a . dr, by Gauss points and
+    /// differences in time.
     #[test]
     fn the_tables_are_the_inertia_of_the_particles() {
         let feed = Extent { length: L, rate: 0.8, acceleration: -1.9 };
@@ -289,7 +298,8 @@ mod tests {
         assert_relative_eq!(element.length_force([&q, &v, &a], &weight), on_length, epsilon = 1e-6);
     }
 
-    /// w is the derivative of S(y; l) e by l at a fixed particle, and dw/dy that along the cable; w = -t at the eye.
+    /// w is the derivative of S(y; l) e by l at a fixed particle, and dw/dy that along the cable; w
+    /// = -t at the eye.
     #[test]
     fn feed_weights_are_derivatives_at_a_fixed_particle() {
         let (q, h) = (some(0.7), 1e-5);

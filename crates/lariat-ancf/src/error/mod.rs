@@ -84,7 +84,8 @@ pub enum Error {
         /// Name of the method.
         method: String,
     },
-    /// A reel under a method that does not solve for its rate, or by which the account of its work does not close.
+    /// A reel under a method that does not solve for its rate, or by which the account of its work
+    /// does not close.
     #[error("cable {cable:?}: a reel under the integrator {method}: {reason}")]
     ReelMethod {
         /// Name of the cable.
@@ -145,7 +146,8 @@ pub enum Error {
         /// What it needs.
         requirement: Requirement,
     },
-    /// A cable that was read back without its forces per length or potentials of the user's own: functions are not serialised.
+    /// A cable that was read back without its forces per length or potentials of the user's own:
+    /// functions are not serialised.
     #[error("cable {cable:?}: {count} force densities or potentials must be added again: functions are not serialised")]
     MissingForceDensities {
         /// Name of the cable.
@@ -293,8 +295,8 @@ pub enum Error {
         /// Arc length of the nearest node in m.
         nearest: f64,
     },
-    /// A step or statics of a cable alone of which a node is [attached](crate::coupling::Coupling::attach) to a
-    /// body.
+    /// A step or statics of a cable alone of which a node is
+    /// [attached](crate::coupling::Coupling::attach) to a body.
     #[error("cable {cable:?}: node {node} is attached to a body: only an island can move it")]
     Attached {
         /// Name of the cable.

@@ -1,10 +1,11 @@
-//! Small dense symmetric systems, of the bodies of an island and of contacts: L D L^T with diagonal pivoting.
+//! Small dense symmetric systems, of the bodies of an island and of contacts: L D L^T with diagonal
+//! pivoting.
 //!
 //! # Validity
 //!
 //! Positive definite matrices, and nearly so; a pivot below rounding is an error. Rows are
-//! exchanged only where a pivot has lost most of its diagonal entry, and zeros below the last entry of a column are skipped: a chain
-//! of bodies in its order costs O(n), a full matrix O(n^3).
+//! exchanged only where a pivot has lost most of its diagonal entry, and zeros below the last entry
+//! of a column are skipped: a chain of bodies in its order costs O(n), a full matrix O(n^3).
 //!
 //! # References
 //!
@@ -105,7 +106,8 @@ impl Dense {
     }
 }
 
-/// Computes l = column/pivot in column `k` of the rows after `k`, of `n` numbers each, and subtracts l column^T from their lower triangle.
+/// Computes l = column/pivot in column `k` of the rows after `k`, of `n` numbers each, and
+/// subtracts l column^T from their lower triangle.
 #[inline(always)]
 fn eliminate(rows: &mut [f64], (n, k): (usize, usize), column: &[f64], pivot: f64) {
     for (i, row) in rows.chunks_exact_mut(n).enumerate().filter(|(i, _)| column[*i] != 0.0) {
@@ -115,8 +117,8 @@ fn eliminate(rows: &mut [f64], (n, k): (usize, usize), column: &[f64], pivot: f6
     }
 }
 
-/// Swaps rows and columns `a` and `b`, `a < b`, of a symmetric matrix of which the lower triangle is stored, with factors in its first `a`
-/// columns.
+/// Swaps rows and columns `a` and `b`, `a < b`, of a symmetric matrix of which the lower triangle
+/// is stored, with factors in its first `a` columns.
 fn swap(f: &mut [f64], n: usize, a: usize, b: usize) {
     if a == b {
         return;
@@ -162,7 +164,8 @@ mod tests {
         }
     }
 
-    /// Pivots that vanish are exchanged, whatever else was exchanged before; the reference is the factorisation of nalgebra with full pivoting.
+    /// Pivots that vanish are exchanged, whatever else was exchanged before; the reference is the
+    /// factorisation of nalgebra with full pivoting.
     #[test]
     fn vanishing_pivots_are_exchanged() {
         let links = |n: usize| {

@@ -2,8 +2,8 @@
 //! island: symmetric sparse matrices of such blocks.
 //!
 //! Public for users of the matrices of a cable, such as
-//! [`Cable::stiffness_matrix`](crate::coupling::Linearisation::stiffness_matrix), and for the benchmarks; a
-//! simulation does not call it.
+//! [`Cable::stiffness_matrix`](crate::coupling::Linearisation::stiffness_matrix), and for the
+//! benchmarks; a simulation does not call it.
 //!
 //! # Equation
 //!

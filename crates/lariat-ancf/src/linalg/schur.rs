@@ -2,16 +2,18 @@
 //!
 //! # Equation
 //!
-//! With the block factors (I + G) S (I + G)^T of the [two-ended elimination](super::twisted) and the columns B of the border,
+//! With the block factors (I + G) S (I + G)^T of the [two-ended elimination](super::twisted) and
+//! the columns B of the border,
 //!
 //! ```text
 //! Y = (I + G)^-1 B        B^T A^-1 B = sum_i Y_i^T S_i^-1 Y_i
 //! z = S^-1 (I + G)^-1 b        B^T A^-1 b = Y^T z        A^-1 (b - B d) = (I + G)^-T (z - S^-1 Y d)
 //! ```
 //!
-//! A column only passes the sweep inwards, and only from its first entry on: its nodes between that and the middle node are all that it
-//! has in Y, so that the products of columns from different halves have one term. The sweep outwards is made once, for the solution.
-//! With the [banded](super::banded) factors, A^-1 B takes the place of S^-1 Y.
+//! A column only passes the sweep inwards, and only from its first entry on: its nodes between that
+//! and the middle node are all that it has in Y, so that the products of columns from different
+//! halves have one term. The sweep outwards is made once, for the solution. With the
+//! [banded](super::banded) factors, A^-1 B takes the place of S^-1 Y.
 //!
 //! Columns are in lanes, eight at a time; no sum is across lanes but that of S^-1 Y d.
 //!
@@ -21,8 +23,8 @@
 //!
 //! # Alternatives considered
 //!
-//! Whole solutions for all columns, and their products with B: on a cable with 20 pins in 40 elements the condensation takes seven times
-//! as long.
+//! Whole solutions for all columns, and their products with B: on a cable with 20 pins in 40
+//! elements the condensation takes seven times as long.
 
 use super::block::Block;
 use super::factorisation::Factorisation;
@@ -46,7 +48,8 @@ pub struct SchurComplement {
     columns: Vec<Block>,
     /// S^-1 Y, or A^-1 B, likewise.
     solved: Vec<Block>,
-    /// By group, the number of nodes before the first entry, at most to the middle node, and after the last.
+    /// By group, the number of nodes before the first entry, at most to the middle node, and after
+    /// the last.
     zeros: Vec<[usize; 2]>,
     /// Whether `solved` is A^-1 B.
     whole: bool,
@@ -116,8 +119,9 @@ impl SchurComplement {
         dispatch!(level, simd => subtract_from(simd, self, w));
     }
 
-    /// Computes `out = B^T A^-1 b`, and brings b half of the way to the solution, which [`expand`](Self::expand) completes. The
-    /// factorisation is that of [`complete`](Self::complete).
+    /// Computes `out = B^T A^-1 b`, and brings b half of the way to the solution, which
+    /// [`expand`](Self::expand) completes. The factorisation is that of
+    /// [`complete`](Self::complete).
     pub fn reduce(&self, level: Level, factorisation: &Factorisation, b: &mut [f64], out: &mut [f64]) {
         let factors = factorisation.twisted();
         if factors.is_none() {

@@ -21,8 +21,8 @@ use crate::support::Support;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard 9.80665: the value that games and
-/// engines use.
+/// Gravity that a cable has unless told otherwise, in m/s^2: (0, -9.81, 0). Not the standard
+/// 9.80665: the value that games and engines use.
 pub const STANDARD_GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
 
 /// A node at a corner of the drawn shape.
@@ -44,7 +44,8 @@ pub struct Model {
     /// Supports by node, ascending, none of them free.
     pub(crate) supports: Vec<(usize, Support)>,
     pub(crate) loads: Vec<PointLoad>,
-    /// By point load, the arc length in m of its material less what had come through the eye of a reel at the start when it was given: it stays.
+    /// By point load, the arc length in m of its material less what had come through the eye of a
+    /// reel at the start when it was given: it stays.
     #[serde(default)]
     pub(crate) load_origins: Vec<f64>,
     #[serde(default)]
@@ -137,7 +138,8 @@ impl Model {
         unreachable!("a cable has at least one element")
     }
 
-    /// Returns whether an element is at the eye of a reel, where material flows: it touches nothing.
+    /// Returns whether an element is at the eye of a reel, where material flows: it touches
+    /// nothing.
     pub(crate) fn is_at_eye(&self, element: usize) -> bool {
         self.reels.sides().any(|side| side.element(self.elements.len()) == element)
     }
@@ -157,8 +159,8 @@ impl Model {
         self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)
     }
 
-    /// Returns whether tension and shape have no reason to jump at a node between two elements, at an arc length in m: neither support, load nor
-    /// another section.
+    /// Returns whether tension and shape have no reason to jump at a node between two elements, at
+    /// an arc length in m: neither support, load nor another section.
     pub(crate) fn is_smooth_at(&self, node: usize, s: f64) -> bool {
         let [a, b] = [&self.elements[node - 1], &self.elements[node]];
         let is_held = || self.supports.iter().any(|(held, _)| *held == node);

@@ -73,7 +73,8 @@ pub struct PairMemory {
     pub(crate) contact: ContactMemory,
     /// Arc lengths in m along this cable and the other one.
     pub(crate) arcs: [f64; 2],
-    /// Lengths in m that had come through the eye of a reel at the start of each: arc lengths of all material have grown by them.
+    /// Lengths in m that had come through the eye of a reel at the start of each: arc lengths of
+    /// all material have grown by them.
     #[serde(default)]
     pub(crate) passed: [f64; 2],
 }

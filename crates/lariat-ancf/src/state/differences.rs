@@ -2,19 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Changes of velocities and coordinates over the last step: what the discrete gradient carries to the next one. Plain data, part of a
-/// snapshot.
+/// Changes of velocities and coordinates over the last step: what the discrete gradient carries to
+/// the next one. Plain data, part of a snapshot.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Differences {
-    /// Change of velocities, flat as these; empty if the state was not the result of a step of this method.
+    /// Change of velocities, flat as these; empty if the state was not the result of a step of this
+    /// method.
     pub velocity: Vec<f64>,
     /// Change of coordinates, flat as these; empty as above.
     pub displacement: Vec<f64>,
     /// Length of the step in s.
     pub step: f64,
-    /// Linear momentum in kg m/s and angular momentum in kg m^2/s that this and earlier steps took and that are still to be restored
-    /// (`system/angular.rs`).
+    /// Linear momentum in kg m/s and angular momentum in kg m^2/s that this and earlier steps took
+    /// and that are still to be restored (`system/angular.rs`).
     pub owed: [f64; 6],
     /// Revision of the system's description at that step.
     pub revision: u64,

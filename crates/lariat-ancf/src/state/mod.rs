@@ -18,7 +18,8 @@ pub struct Memory {
     /// Acceleration at the present state, if `valid`.
     pub acceleration: Vec<f64>,
     /// Algorithmic acceleration of a method that [has
-    /// one](crate::integrate::OneStep::has_algorithmic_acceleration), as generalised-alpha; else empty.
+    /// one](crate::integrate::OneStep::has_algorithmic_acceleration), as generalised-alpha; else
+    /// empty.
     pub algorithmic: Vec<f64>,
     /// Whether the accelerations belong to the present state.
     pub valid: bool,
@@ -50,7 +51,8 @@ pub struct Memory {
     /// Contacts with other cables and with itself, likewise.
     #[serde(default)]
     pub pairs: Vec<PairMemory>,
-    /// Least axial damping time in s that the accelerations were computed with; see [`Cable::set_least_damping`](crate::coupling::Coupling::set_least_damping).
+    /// Least axial damping time in s that the accelerations were computed with; see
+    /// [`Cable::set_least_damping`](crate::coupling::Coupling::set_least_damping).
     #[serde(default)]
     pub least_damping: f64,
 }

@@ -16,9 +16,10 @@ impl Cable {
     /// Advances the cable by `dt` (s), the host's step, with its integrator. `dt` = 0 does nothing.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not zero; [`Error::StepFailed`] if
-    /// the step failed: the cable is then exactly as before. [`Error::Attached`] for a cable with
-    /// [attached](crate::coupling::Coupling::attach) nodes, which only an [`island`](crate::island) can step.
+    /// [`Error::InvalidValue`] for a `dt` that is negative, not finite, or below 1e-100 and not
+    /// zero; [`Error::StepFailed`] if the step failed: the cable is then exactly as before.
+    /// [`Error::Attached`] for a cable with [attached](crate::coupling::Coupling::attach) nodes,
+    /// which only an [`island`](crate::island) can step.
     pub fn step(&mut self, dt: f64) -> Result<(), Error> {
         let integrator = self.integrator;
         self.step_with(dt, &integrator)
@@ -28,7 +29,8 @@ impl Cable {
     /// cable's own. Its method may be of another crate.
     ///
     /// # Errors
-    /// As [`step`](Self::step), [`Integrator::checked`](crate::Integrator::checked) and [`set_integrator`](Self::set_integrator).
+    /// As [`step`](Self::step), [`Integrator::checked`](crate::Integrator::checked) and
+    /// [`set_integrator`](Self::set_integrator).
     pub fn step_with<'a>(&mut self, dt: f64, integrator: impl Into<IntegratorRef<'a>>) -> Result<(), Error> {
         let integrator = integrator.into();
         integrator.check()?;

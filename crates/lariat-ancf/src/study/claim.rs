@@ -10,7 +10,8 @@ pub enum Outcome {
     Proven,
     /// Refining does not bring the runs together: a chaotic motion, or several equilibria.
     NoConvergence,
-    /// The limit of elements was reached before the error, or refining helps so slowly that it would be.
+    /// The limit of elements was reached before the error, or refining helps so slowly that it
+    /// would be.
     ElementLimit,
 }
 
@@ -20,7 +21,8 @@ pub enum Outcome {
 pub struct Claim {
     /// Error that was asked for in m.
     pub asked_m: f64,
-    /// Bound of the error of all recorded positions at all recorded times in m; `None` if none is proven.
+    /// Bound of the error of all recorded positions at all recorded times in m; `None` if none is
+    /// proven.
     pub claimed_m: Option<f64>,
     /// Estimate of the error of the mesh in m; `None` if the last meshes could not be compared.
     pub mesh_m: Option<f64>,
@@ -28,17 +30,20 @@ pub struct Claim {
     pub time_m: f64,
     /// How the study ended.
     pub outcome: Outcome,
-    /// If no error is proven for the whole motion: first recorded time in s at which the asked one is not proven.
+    /// If no error is proven for the whole motion: first recorded time in s at which the asked one
+    /// is not proven.
     pub horizon_s: Option<f64>,
-    /// True if the last two runs are apart by more than a tenth of the longest cable: they follow different branches.
+    /// True if the last two runs are apart by more than a tenth of the longest cable: they follow
+    /// different branches.
     pub other_branch: bool,
-    /// True if the steps are limited by the host step rather than the tolerance, so that runs at two tolerances cannot judge the error in
-    /// time: a run in shorter equal steps does.
+    /// True if the steps are limited by the host step rather than the tolerance, so that runs at
+    /// two tolerances cannot judge the error in time: a run in shorter equal steps does.
     pub host_step_limits: bool,
     /// Elements of the cable that has most, in the last run.
     pub elements: usize,
-    /// If the limit of elements ended the study: how many that cable would need about, by the order that the last runs show; `None` if they
-    /// show none, and for runs that part later than in the first tenth of the motion.
+    /// If the limit of elements ended the study: how many that cable would need about, by the order
+    /// that the last runs show; `None` if they show none, and for runs that part later than in the
+    /// first tenth of the motion.
     #[serde(default)]
     pub elements_needed: Option<usize>,
     /// Error of position per host step of the last run in m; `None` for an equilibrium.

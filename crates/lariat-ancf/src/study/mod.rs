@@ -2,48 +2,62 @@
 //!
 //! # Equation
 //!
-//! A program states an error `e` in m of all recorded positions at all recorded times. The study runs it with `n_A < n_B` elements at the
-//! tolerance `tau = e dt/(4 T)` per host step `dt` of the duration `T`, beginning with 4 and 8, and takes
+//! A program states an error `e` in m of all recorded positions at all recorded times. The study
+//! runs it with `n_A < n_B` elements at the tolerance `tau = e dt/(4 T)` per host step `dt` of the
+//! duration `T`, beginning with 4 and 8, and takes
 //!
-//! - `e_mesh = d max(1, 1/(f^p - 1))` for the error of the mesh, with the largest distance `d` between the two runs and the least ratio `f`
-//!   of their element lengths, found on the meshes themselves. The order p is 1: the whole difference of a mesh and its half. Where the last two
-//!   distances or the [mesh indicator](crate::coupling::Linearisation::mesh_indicator) of both runs show less than the first order, it is what they show, at least 1/4.
-//!   It is 2/3 at most with two meshes alone of a motion, where [velocities jump](Record::velocities_jump), and for an equilibrium that is held between the ends of a cable;
-//!   for one that is smooth there it is what both show, up to 2, with two meshes what the indicator shows, as far as the claim is at least four times
-//!   the indicator of the finer one;
-//! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one in shorter equal steps: see `time`.
+//! - `e_mesh = d max(1, 1/(f^p - 1))` for the error of the mesh, with the largest distance `d`
+//!   between the two runs and the least ratio `f` of their element lengths, found on the meshes
+//!   themselves. The order p is 1: the whole difference of a mesh and its half. Where the last two
+//!   distances or the [mesh indicator](crate::coupling::Linearisation::mesh_indicator) of both runs
+//!   show less than the first order, it is what they show, at least 1/4. It is 2/3 at most with two
+//!   meshes alone of a motion, where [velocities jump](Record::velocities_jump), and for an
+//!   equilibrium that is held between the ends of a cable; for one that is smooth there it is what
+//!   both show, up to 2, with two meshes what the indicator shows, as far as the claim is at least
+//!   four times the indicator of the finer one;
+//! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one
+//!   in shorter equal steps: see `time`.
 //!
-//! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has 1.5 to 3 times as many elements, after
-//! the difference and an order of 2.5. Where refining does not help (the third difference is above 0.6 of the first), the motion is not
-//! determined by its start within `e`, as that of a chaotic pendulum: the study reports the time up to which `e` holds. Where meshes are
-//! apart from the first tenth of the motion on, which is no chaos, the order is that of the last three differences; and where by it half as
-//! many elements again as are allowed would be needed, the study ends at once and reports how many: that number is an extrapolation, and no
-//! claim rests on it.
-//! A first run that fails is repeated with twice and four times as many elements.
+//! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has
+//! 1.5 to 3 times as many elements, after the difference and an order of 2.5. Where refining does
+//! not help (the third difference is above 0.6 of the first), the motion is not determined by its
+//! start within `e`, as that of a chaotic pendulum: the study reports the time up to which `e`
+//! holds. Where meshes are apart from the first tenth of the motion on, which is no chaos, the
+//! order is that of the last three differences; and where by it half as many elements again as are
+//! allowed would be needed, the study ends at once and reports how many: that number is an
+//! extrapolation, and no claim rests on it. A first run that fails is repeated with twice and four
+//! times as many elements.
 //!
 //! # Validity
 //!
-//! The claim is about the equations of the rod with its rule, law and effects. Their own error is not part of it, nor is what the runs have
-//! in common: the host step of a physics engine with its contacts and joints, single precision, sampled flows, an equilibrium that both
-//! meshes find though another is meant. A cable whose elements are not refined proves nothing, and the study goes on.
+//! The claim is about the equations of the rod with its rule, law and effects. Their own error is
+//! not part of it, nor is what the runs have in common: the host step of a physics engine with its
+//! contacts and joints, single precision, sampled flows, an equilibrium that both meshes find
+//! though another is meant. A cable whose elements are not refined proves nothing, and the study
+//! goes on.
 //!
-//! The first order is what a cable shows that a load bends within `sqrt(EI/T)`, shorter than its elements: on the bridge of `assets/scenes`
-//! 9 mm at each hanger. Errors that change their sign between two meshes are not bounded, nor are orders below the first that neither distances nor indicator
-//! show: of 282 random equilibria with one claimed error each, one that is held between its ends was off by 1.13 of it, and of another all meshes up to 120
-//! elements find an equilibrium that finer ones do not. The error in time of finer meshes is taken to be that of the first one.
+//! The first order is what a cable shows that a load bends within `sqrt(EI/T)`, shorter than its
+//! elements: on the bridge of `assets/scenes` 9 mm at each hanger. Errors that change their sign
+//! between two meshes are not bounded, nor are orders below the first that neither distances nor
+//! indicator show: of 282 random equilibria with one claimed error each, one that is held between
+//! its ends was off by 1.13 of it, and of another all meshes up to 120 elements find an equilibrium
+//! that finer ones do not. The error in time of finer meshes is taken to be that of the first one.
 //!
 //! # References
 //!
-//! Roache 1998, *Verification and validation in computational science and engineering*, chapter 5 (grid convergence; here with the safety
-//! factor of an order of 1 or more that is not relied on). Tolerance proportionality: Hairer, Norsett, Wanner 1993, section II.4.
+//! Roache 1998, *Verification and validation in computational science and engineering*, chapter 5
+//! (grid convergence; here with the safety factor of an order of 1 or more that is not relied on).
+//! Tolerance proportionality: Hairer, Norsett, Wanner 1993, section II.4.
 //!
 //! # Alternatives considered
 //!
-//! - The difference divided by `f^2.5 - 1`, or an order fitted to two differences: claims 0.6 of the true error where waves accumulate it.
-//! - Runs at `8 tau` and `tau` alone: where the host step limits the steps of both they agree, whatever their error, and claims were down to 0.4 of the
-//!   true error.
+//! - The difference divided by `f^2.5 - 1`, or an order fitted to two differences: claims 0.6 of
+//!   the true error where waves accumulate it.
+//! - Runs at `8 tau` and `tau` alone: where the host step limits the steps of both they agree,
+//!   whatever their error, and claims were down to 0.4 of the true error.
 //! - Mesh and tolerance refined together: loose tolerances saturate, and then hide each other.
-//! - Equilibria that start from the coarser shape: cheaper, but two meshes that find a shape on their own are evidence that it is one.
+//! - Equilibria that start from the coarser shape: cheaper, but two meshes that find a shape on
+//!   their own are evidence that it is one.
 //! - The mesh indicator as a bound: it does not see what waves accumulate.
 
 mod claim;
@@ -99,8 +113,9 @@ pub struct Study<F> {
 }
 
 impl<F> Study<F> {
-    /// Returns a study of a motion of a duration in s, in host steps in s. `run` builds the world with the elements and the integrator that
-    /// it is given, runs it, and records the positions at host times; what it returns for the last run, the study returns.
+    /// Returns a study of a motion of a duration in s, in host steps in s. `run` builds the world
+    /// with the elements and the integrator that it is given, runs it, and records the positions at
+    /// host times; what it returns for the last run, the study returns.
     pub fn new<W, E>(duration: f64, host_step: f64, run: F) -> Self
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
@@ -126,10 +141,12 @@ impl<F> Study<F> {
         Study { limit: elements, ..self }
     }
 
-    /// Runs the world until its error is proven, or until refining does not help; [`Claim::outcome`] says which.
+    /// Runs the world until its error is proven, or until refining does not help;
+    /// [`Claim::outcome`] says which.
     ///
     /// # Errors
-    /// [`StudyError::Run`] for a run that fails, [`StudyError::InvalidError`], [`StudyError::InvalidSpan`], [`StudyError::NothingRecorded`],
+    /// [`StudyError::Run`] for a run that fails, [`StudyError::InvalidError`],
+    /// [`StudyError::InvalidSpan`], [`StudyError::NothingRecorded`],
     /// [`StudyError::DifferentTimes`].
     pub fn run<W, E>(self) -> Result<Proof<W>, StudyError<E>>
     where
@@ -168,7 +185,8 @@ impl<F> Study<F> {
             let shown = shown.filter(|_| refined);
             let largest = fine.record.largest_order(span.is_none(), differences.len(), shown);
             let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
-            // an order that no distances show is believed as far as the indicator agrees with the claim
+            // an order that no distances show is believed as far as the indicator agrees with the
+            // claim
             let believed = differences.len() == 1 && largest > KINKS;
             let mesh = match refined {
                 true if believed => {
@@ -198,7 +216,8 @@ impl<F> Study<F> {
                 continue;
             };
             let proven = outcome == Outcome::Proven;
-            // distances at the end of a motion that no mesh determines show no order of what is before
+            // distances at the end of a motion that no mesh determines show no order of what is
+            // before
             let apart = if outcome == Outcome::NoConvergence {
                 let factor = order::factor(&differences[differences.len() - 1..], None, largest);
                 coarse.record.first_beyond(&fine.record, left / factor)

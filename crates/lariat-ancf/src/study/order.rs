@@ -1,34 +1,46 @@
-//! What the distances between meshes say about the next one, and how far the order that is seen falls below the first.
+//! What the distances between meshes say about the next one, and how far the order that is seen
+//! falls below the first.
 //!
 //! # Equation
 //!
-//! An error `C h^p` makes the distance `d = C h^p (1 - f^-p)` between meshes with element lengths `h` and `h/f`. Two distances with ratios `f`
-//! and `g`, the second mesh of the latter shorter by `r`, have `d_1/d_2 = r^p (1 - f^-p)/(1 - g^-p)`, which grows with `p`; the error of the
-//! finest mesh is `d_2/(g^p - 1)`.
+//! An error `C h^p` makes the distance `d = C h^p (1 - f^-p)` between meshes with element lengths
+//! `h` and `h/f`. Two distances with ratios `f` and `g`, the second mesh of the latter shorter by
+//! `r`, have `d_1/d_2 = r^p (1 - f^-p)/(1 - g^-p)`, which grows with `p`; the error of the finest
+//! mesh is `d_2/(g^p - 1)`.
 //!
 //! # Validity
 //!
-//! Before meshes resolve a motion their distances follow no order, and points beside a kink are nearer to one mesh than to the next. So orders
-//! are kept between 1/4 and 4, and a study is ended on one that spans four meshes only. A claim about a motion never rests on an order above the first;
-//! one below it, of the distances or of the mesh indicator `eta = max h^3 |[[r''']]|/96`, makes it larger: a cable that is set in motion by a jolt can have meshes of
-//! 4 and 8 elements nearer to each other than to the truth, while the indicator of the finer one is the larger one. A claim from two meshes alone assumes the order of waves with
-//! kinks, 2/3: the hoist of the shipped scenes has meshes of 4 and 8 elements 5.3e-4 m apart and the truth 6.2e-4 m away. Where velocities jump, kinks travel
-//! along the cable, and the order is 2/3 at most (Brenner, Thomee & Wahlbin 1975, chapter 5); what buckles under such a shock follows none.
+//! Before meshes resolve a motion their distances follow no order, and points beside a kink are
+//! nearer to one mesh than to the next. So orders are kept between 1/4 and 4, and a study is ended
+//! on one that spans four meshes only. A claim about a motion never rests on an order above the
+//! first; one below it, of the distances or of the mesh indicator `eta = max h^3 |[[r''']]|/96`,
+//! makes it larger: a cable that is set in motion by a jolt can have meshes of 4 and 8 elements
+//! nearer to each other than to the truth, while the indicator of the finer one is the larger one.
+//! A claim from two meshes alone assumes the order of waves with kinks, 2/3: the hoist of the
+//! shipped scenes has meshes of 4 and 8 elements 5.3e-4 m apart and the truth 6.2e-4 m away. Where
+//! velocities jump, kinks travel along the cable, and the order is 2/3 at most (Brenner, Thomee &
+//! Wahlbin 1975, chapter 5); what buckles under such a shock follows none.
 //!
-//! In equilibria nothing accumulates. One that is smooth between its ends has the order 3 to 4 once it is resolved, and up to the second is believed,
-//! if three meshes and the indicator show it. Of two meshes the indicator alone shows an order; but it is an estimate of the error too, independent of their
-//! distance, and a claim is at least four times that of the finer one. A support between the ends bends a cable within `sqrt(EI/T)`, where that is shorter than the elements a
-//! kink in its tangent, and meshes converge with 0.5 to 0.9: the order is that of waves with kinks.
+//! In equilibria nothing accumulates. One that is smooth between its ends has the order 3 to 4 once
+//! it is resolved, and up to the second is believed, if three meshes and the indicator show it. Of
+//! two meshes the indicator alone shows an order; but it is an estimate of the error too,
+//! independent of their distance, and a claim is at least four times that of the finer one. A
+//! support between the ends bends a cable within `sqrt(EI/T)`, where that is shorter than the
+//! elements a kink in its tangent, and meshes converge with 0.5 to 0.9: the order is that of waves
+//! with kinks.
 //!
 //! # References
 //!
-//! Roache 1998, *Verification and validation in computational science and engineering*, section 5.10 (observed order).
+//! Roache 1998, *Verification and validation in computational science and engineering*, section
+//! 5.10 (observed order).
 //!
 //! # Alternatives considered
 //!
-//! - The order 2.5 throughout: where the order is 1, the elements grow by so little that a study takes three runs more.
-//! - The second order for all equilibria whose distances and indicator show it: of 280 random ones, three that are held between the ends were claimed
-//!   at down to 0.14 of the true error; with the first order at 0.86.
+//! - The order 2.5 throughout: where the order is 1, the elements grow by so little that a study
+//!   takes three runs more.
+//! - The second order for all equilibria whose distances and indicator show it: of 280 random ones,
+//!   three that are held between the ends were claimed at down to 0.14 of the true error; with the
+//!   first order at 0.86.
 
 use crate::scales::study::{AIM, ASSUMED, FACTOR, LEAST, ORDERS};
 
@@ -62,8 +74,9 @@ fn observed(differences: &[Difference]) -> Option<f64> {
     Some(low)
 }
 
-/// Returns the factor by which a claim is larger than the last of several distances: `1/(g^p - 1)`, with the least order p that the last two
-/// distances or the mesh indicator show, at most `largest`, and at least 1 unless that is above the first order.
+/// Returns the factor by which a claim is larger than the last of several distances: `1/(g^p - 1)`,
+/// with the least order p that the last two distances or the mesh indicator show, at most
+/// `largest`, and at least 1 unless that is above the first order.
 pub(super) fn factor(differences: &[Difference], indicated: Option<f64>, largest: f64) -> f64 {
     let [.., last] = differences else { return f64::INFINITY };
     let seen = observed(tail(differences, 2)).into_iter().chain(indicated);
@@ -72,7 +85,8 @@ pub(super) fn factor(differences: &[Difference], indicated: Option<f64>, largest
     if largest > 1.0 { factor } else { factor.max(1.0) }
 }
 
-/// Returns the order that the last two distances and the mesh indicator both show; `None` if either shows none.
+/// Returns the order that the last two distances and the mesh indicator both show; `None` if either
+/// shows none.
 pub(super) fn shown_by_both(differences: &[Difference], indicated: Option<f64>) -> Option<f64> {
     observed(tail(differences, 2)).zip(indicated).map(|(seen, indicated)| seen.min(indicated))
 }
@@ -82,7 +96,8 @@ fn tail(differences: &[Difference], count: usize) -> &[Difference] {
     &differences[differences.len().saturating_sub(count)..]
 }
 
-/// Returns the factor by which the number of elements is to grow for an error in m; by the order of the last distances, if they show `one`.
+/// Returns the factor by which the number of elements is to grow for an error in m; by the order of
+/// the last distances, if they show `one`.
 pub(super) fn growth(differences: &[Difference], error: f64, one: bool) -> f64 {
     let [.., last] = differences else { return LEAST };
     let order = observed(tail(differences, 3)).filter(|_| one).unwrap_or(ASSUMED).min(ASSUMED);
@@ -96,8 +111,8 @@ pub(super) fn stuck(differences: &[Difference]) -> bool {
     matches!(differences, [.., before, _, last] if last.distance > 0.6 * before.distance)
 }
 
-/// Returns the factor by which the number of elements must grow until an error in m is proven, by the order of the last three distances;
-/// `None` before there are as many.
+/// Returns the factor by which the number of elements must grow until an error in m is proven, by
+/// the order of the last three distances; `None` before there are as many.
 pub(super) fn needed(differences: &[Difference], error: f64) -> Option<f64> {
     let [.., _, _, last] = differences else { return None };
     let order = observed(tail(differences, 3))?;

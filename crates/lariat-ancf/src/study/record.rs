@@ -21,7 +21,8 @@ pub struct Record {
     indicator: f64,
     /// True if velocities jump in the motion.
     jumps: bool,
-    /// True if a cable is held between its ends, and if one is not smooth there: held, loaded, or of several sections.
+    /// True if a cable is held between its ends, and if one is not smooth there: held, loaded, or
+    /// of several sections.
     held: bool,
     kinked: bool,
 }
@@ -44,8 +45,8 @@ impl Record {
         self
     }
 
-    /// Tells that velocities jump in the motion, where a cable is set in motion in no time: from then on waves with kinks travel along it, which meshes
-    /// resolve slowly.
+    /// Tells that velocities jump in the motion, where a cable is set in motion in no time: from
+    /// then on waves with kinks travel along it, which meshes resolve slowly.
     pub fn velocities_jump(&mut self) -> &mut Self {
         self.jumps = true;
         self
@@ -110,15 +111,17 @@ impl Record {
         self.cables.iter().filter_map(|cable| cable.nodes.last()).fold(0.0, |longest, &s| longest.max(s))
     }
 
-    /// Returns the order that the mesh indicator shows between this mesh and a finer one of element lengths shorter by `ratio`; `None` for cables
-    /// whose indicator is rounding, as that of straight ones.
+    /// Returns the order that the mesh indicator shows between this mesh and a finer one of element
+    /// lengths shorter by `ratio`; `None` for cables whose indicator is rounding, as that of
+    /// straight ones.
     pub(super) fn indicated_order(&self, finer: &Record, ratio: f64) -> Option<f64> {
         let order = (self.indicator / finer.indicator).ln() / ratio.ln();
         Some(order).filter(|order| order.is_finite() && finer.indicator > INDICATOR_ROUNDING * finer.longest())
     }
 
-    /// Returns the largest order of convergence that the motion, or the equilibrium, allows after a number of distances between meshes, of which one
-    /// shows no order; `seen` is the least that distances and indicator both show, of one distance that of the indicator.
+    /// Returns the largest order of convergence that the motion, or the equilibrium, allows after a
+    /// number of distances between meshes, of which one shows no order; `seen` is the least that
+    /// distances and indicator both show, of one distance that of the indicator.
     pub(super) fn largest_order(&self, equilibrium: bool, distances: usize, seen: Option<f64>) -> f64 {
         let smooth = equilibrium && !self.held && !self.kinked && !self.jumps;
         match seen {
@@ -129,13 +132,14 @@ impl Record {
         }
     }
 
-    /// Returns what the mesh indicator allows to claim of an equilibrium, in m: the most by which it was found to fall below the error.
+    /// Returns what the mesh indicator allows to claim of an equilibrium, in m: the most by which
+    /// it was found to fall below the error.
     pub(super) fn indicated_error(&self) -> f64 {
         INDICATED * self.indicator
     }
 
-    /// Returns the largest distance between the points of two runs at a frame in m; infinite if they have not the same parts, or are not
-    /// numbers.
+    /// Returns the largest distance between the points of two runs at a frame in m; infinite if
+    /// they have not the same parts, or are not numbers.
     fn apart(&self, other: &Record, frame: usize) -> f64 {
         let points = |record: &Record| {
             let start = frame.checked_sub(1).map_or(0, |before| record.ends[before]);
@@ -181,8 +185,9 @@ impl Record {
         frames.into_iter().find(|&frame| self.apart(other, frame) > distance).map(|frame| self.times[frame])
     }
 
-    /// Returns the least ratio of the element lengths of this mesh to those of a finer one, of `elements` and `finer_elements` elements, over
-    /// all places whose elements are not as short as the finer mesh would have them already; 1 for other cables, and if a cable has no such
+    /// Returns the least ratio of the element lengths of this mesh to those of a finer one, of
+    /// `elements` and `finer_elements` elements, over all places whose elements are not as short as
+    /// the finer mesh would have them already; 1 for other cables, and if a cable has no such
     /// place, because it is the same in both. Without cables, the ratio of the numbers of elements.
     pub(super) fn refinement(&self, finer: &Record, elements: usize, finer_elements: usize) -> f64 {
         if self.cables.len() != finer.cables.len() {

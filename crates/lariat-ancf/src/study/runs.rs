@@ -16,13 +16,15 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Returns the number of elements of a cable that would have `own` of them in a world where the largest has `largest`: in this
-    /// proportion, but not below half of [`elements`](Self::elements), because a mesh that is not refined shows no error.
+    /// Returns the number of elements of a cable that would have `own` of them in a world where the
+    /// largest has `largest`: in this proportion, but not below half of
+    /// [`elements`](Self::elements), because a mesh that is not refined shows no error.
     pub fn elements_of(&self, own: usize, largest: usize) -> usize {
         (self.elements * own).div_ceil(largest.max(1)).max(self.elements.div_ceil(2))
     }
 
-    /// Returns the integrator: ESDIRK4 with the tolerance for every node and body, or in equal steps; for an equilibrium the default one.
+    /// Returns the integrator: ESDIRK4 with the tolerance for every node and body, or in equal
+    /// steps; for an equilibrium the default one.
     pub fn integrator(&self) -> Integrator {
         let control = self.max_step.map(StepControl::MaxStep).or(self.tolerance.map(StepControl::Tolerance));
         control.map_or(Integrator::default(), |control| Integrator { method: Method::Esdirk4, control })

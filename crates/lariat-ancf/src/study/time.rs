@@ -2,27 +2,35 @@
 //!
 //! # Equation
 //!
-//! Two runs of the same mesh are `d` apart, one with `r` times as many steps as the other. With an error `C h^p` in the mean step `h` the one with
-//! longer steps is off by `d r^p/(r^p - 1)`, the other by `d/(r^p - 1)`.
+//! Two runs of the same mesh are `d` apart, one with `r` times as many steps as the other. With an
+//! error `C h^p` in the mean step `h` the one with longer steps is off by `d r^p/(r^p - 1)`, the
+//! other by `d/(r^p - 1)`.
 //!
-//! - Runs at `q tau` and `tau`, q = 8 at first, with `r >= q^(1/4)`, as steps have that follow a tolerance: the error at `tau` is `d/(q^(1/2) - 1)`,
-//!   p = 2 with `r = q^(1/4)`. Steps that a vibration makes shorter than that are no measure of the rest.
-//! - Below, the host step limits the steps of the looser one, or of both, so that they are near each other whatever their error. The run at `tau` is
-//!   compared with one in equal steps, 1.6 to 3 times as short in the mean: its error is `d r/(r - 1)`, p = 1, and one `tau` for vibrations that are
-//!   faster than the steps of both, which damp them: the error estimate of a step sees their amplitude.
+//! - Runs at `q tau` and `tau`, q = 8 at first, with `r >= q^(1/4)`, as steps have that follow a
+//!   tolerance: the error at `tau` is `d/(q^(1/2) - 1)`, p = 2 with `r = q^(1/4)`. Steps that a
+//!   vibration makes shorter than that are no measure of the rest.
+//! - Below, the host step limits the steps of the looser one, or of both, so that they are near
+//!   each other whatever their error. The run at `tau` is compared with one in equal steps, 1.6 to
+//!   3 times as short in the mean: its error is `d r/(r - 1)`, p = 1, and one `tau` for vibrations
+//!   that are faster than the steps of both, which damp them: the error estimate of a step sees
+//!   their amplitude.
 //!
-//! Where a run takes hardly more steps than the host, none at a looser tolerance is taken. By two tolerances, the error is at least the sum
-//! `T/dt tau` of the tolerances; where the host step limits the steps, errors are far below the tolerance, and the sum would claim up to 1e5 times the
-//! true error.
-//! If the error is above 0.4 of what is asked for, the next run has a tolerance that the error asks for, and is judged in the same way.
+//! Where a run takes hardly more steps than the host, none at a looser tolerance is taken. By two
+//! tolerances, the error is at least the sum `T/dt tau` of the tolerances; where the host step
+//! limits the steps, errors are far below the tolerance, and the sum would claim up to 1e5 times
+//! the true error. If the error is above 0.4 of what is asked for, the next run has a tolerance
+//! that the error asks for, and is judged in the same way.
 //!
 //! # Validity
 //!
-//! ESDIRK4 with local extrapolation has order 4 in the step, and 2 or more where stiff modes reduce it. Errors per step that a motion amplifies,
-//! as a rotation whose rate is off, are in the distance, but not in any bound by the sum of tolerances: a bar that swings for two seconds in steps of 1/30 s
-//! is off by 2.4 times that sum. The run in equal steps has the mesh of the coarser pilot if both take as many steps. Vibrations that are
-//! faster than all steps, and smaller than the tolerance, are in no run. Runs that do not come closer with the tolerance, or not enough in a few
-//! rounds, have no error in time: the motion is not determined by its start, from the horizon on.
+//! ESDIRK4 with local extrapolation has order 4 in the step, and 2 or more where stiff modes reduce
+//! it. Errors per step that a motion amplifies, as a rotation whose rate is off, are in the
+//! distance, but not in any bound by the sum of tolerances: a bar that swings for two seconds in
+//! steps of 1/30 s is off by 2.4 times that sum. The run in equal steps has the mesh of the coarser
+//! pilot if both take as many steps. Vibrations that are faster than all steps, and smaller than
+//! the tolerance, are in no run. Runs that do not come closer with the tolerance, or not enough in
+//! a few rounds, have no error in time: the motion is not determined by its start, from the horizon
+//! on.
 //!
 //! # References
 //!
@@ -30,7 +38,8 @@
 //!
 //! # Alternatives considered
 //!
-//! - A run at a smaller tolerance instead of equal steps: up to 115 times the cost of the run it judges, where a stiff cable then rings.
+//! - A run at a smaller tolerance instead of equal steps: up to 115 times the cost of the run it
+//!   judges, where a stiff cable then rings.
 
 use super::claim::StudyError;
 use super::record::Record;
@@ -56,7 +65,8 @@ pub(super) struct Time {
 pub(super) type Pilots<W> = (Run<W>, Run<W>, Time);
 
 impl<F> Runs<F> {
-    /// Returns the runs with `first` and twice as many elements at the tolerance that they have their error in time for, and that error.
+    /// Returns the runs with `first` and twice as many elements at the tolerance that they have
+    /// their error in time for, and that error.
     pub(super) fn in_time<W, E>(&mut self, first: usize, span: Span) -> Result<Pilots<W>, StudyError<E>>
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
@@ -65,12 +75,14 @@ impl<F> Runs<F> {
         let [allowed, aim] = SHARE.map(|share| share * self.error);
         let (mut tau, mut looser, mut before) = (self.error / (4.0 * span.steps), LOOSER, f64::INFINITY);
         let mut fine = self.run(at(2 * first, tau))?;
-        // no tolerance has fewer steps than the host: a looser one says nothing where this one has hardly more
+        // no tolerance has fewer steps than the host: a looser one says nothing where this one has
+        // hardly more
         let one_each = |run: &Run<W>| run.record.steps() > 0 && run.record.steps_of_one() < SATURATED * span.steps;
         let mut loose = if one_each(&fine) { None } else { Some(self.run(at(2 * first, LOOSER * tau))?) };
         let least = TIGHTEST * fine.record.longest();
         for round in 1.. {
-            // not a number without cables, whose steps are not known: then the tolerance is taken to be kept
+            // not a number without cables, whose steps are not known: then the tolerance is taken
+            // to be kept
             let (ratio, distance) = match &loose {
                 Some(loose) => {
                     (fine.record.steps() as f64 / loose.record.steps() as f64, loose.record.distance(&fine.record)?)
@@ -89,7 +101,8 @@ impl<F> Runs<F> {
             } else {
                 (distance / (looser.sqrt() - 1.0)).max(span.steps * tau)
             };
-            // a difference that is not finite says nothing about the tolerance: the meshes are compared, and do not agree
+            // a difference that is not finite says nothing about the tolerance: the meshes are
+            // compared, and do not agree
             if error <= allowed || !error.is_finite() {
                 return Ok((self.run(at(first, tau))?, fine, Time { error, ..time }));
             }
@@ -101,7 +114,8 @@ impl<F> Runs<F> {
                     Time { error: distance.max(error), stuck: true, horizon, tolerance: Some(tolerance), ..time };
                 return Ok((self.run(at(first, tolerance))?, kept, time));
             }
-            // a run with one step per host step keeps no tolerance, and may be near the next one by chance
+            // a run with one step per host step keeps no tolerance, and may be near the next one by
+            // chance
             let by_host = limited || loose.as_ref().is_some_and(one_each);
             before = if by_host { f64::INFINITY } else { distance };
             (looser, tau, loose) = (tau / next, next, Some(fine));
@@ -110,7 +124,8 @@ impl<F> Runs<F> {
         unreachable!("the last round returns")
     }
 
-    /// Returns the error in m of the steps of two runs with the same tolerance, by one in equal steps that are 1.6 times as short or shorter.
+    /// Returns the error in m of the steps of two runs with the same tolerance, by one in equal
+    /// steps that are 1.6 times as short or shorter.
     fn in_equal_steps<W, E>(&mut self, coarse: &Run<W>, fine: &Run<W>, span: Span) -> Result<f64, StudyError<E>>
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,

@@ -1,15 +1,18 @@
-//! Restoring the momenta that a step of the [discrete gradient](crate::integrate::discrete_gradient) takes from what nothing holds.
+//! Restoring the momenta that a step of the [discrete
+//! gradient](crate::integrate::discrete_gradient) takes from what nothing holds.
 //!
 //! # Equation
 //!
-//! Over a step the method changes the angular momentum by more than the impulses `h F` about the mean configuration,
+//! Over a step the method changes the angular momentum by more than the impulses `h F` about the
+//! mean configuration,
 //!
 //! ```text
 //! D L = q_m x h F - a D q x M (D v - O v)  (+ reels: means of l' G q and M)
 //! ```
 //!
-//! most of which is a change of `a h v x M D v`, of the second order of the step. It keeps the linear momentum of a cable, but that of an island
-//! only as far as the iteration converges, because pinned nodes turn with their bodies. The step ends with velocities
+//! most of which is a change of `a h v x M D v`, of the second order of the step. It keeps the
+//! linear momentum of a cable, but that of an island only as far as the iteration converges,
+//! because pinned nodes turn with their bodies. The step ends with velocities
 //!
 //! ```text
 //! v + p + w x (r - c) - u (v - V - W x (r - c))            t' + w x t - u (t' - W x t)
@@ -17,26 +20,31 @@
 //! I w = L_0 + q_m x h F - L_1 + (what earlier steps owe)      all about the centre of mass c
 //! ```
 //!
-//! V, W is the rigid motion with the momenta of all. The last term is orthogonal to rigid motions in the norm of the kinetic energy, so momenta
-//! stay, and u is what keeps the kinetic energy: the energy law is that of the step, exactly. Energy for p and w comes first from what the
-//! method took of the rigid rotation, `a/2 z.I z` with z the rotation in D v - O v: a body that tumbles alone loses angular momentum and
-//! energy together; never more than the law of the step leaves, since a residual may have used it. The share that neither covers is owed to the next step.
+//! V, W is the rigid motion with the momenta of all. The last term is orthogonal to rigid motions
+//! in the norm of the kinetic energy, so momenta stay, and u is what keeps the kinetic energy: the
+//! energy law is that of the step, exactly. Energy for p and w comes first from what the method
+//! took of the rigid rotation, `a/2 z.I z` with z the rotation in D v - O v: a body that tumbles
+//! alone loses angular momentum and energy together; never more than the law of the step leaves,
+//! since a residual may have used it. The share that neither covers is owed to the next step.
 //!
 //! # Validity
 //!
-//! Without supports, driven or locked bodies, bodies that carry others, contact with obstacles, stock outside of the system, or bodies
-//! without gyroscopic torque, whose angular momentum is not constant: there nothing is restored.
-//! The memory O v is what the equations of motion made, and stays: the law holds for any v at the beginning of a step.
+//! Without supports, driven or locked bodies, bodies that carry others, contact with obstacles,
+//! stock outside of the system, or bodies without gyroscopic torque, whose angular momentum is not
+//! constant: there nothing is restored. The memory O v is what the equations of motion made, and
+//! stays: the law holds for any v at the beginning of a step.
 //!
 //! # References
 //!
-//! Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), IV.4: projection on invariants keeps the order.
+//! Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), IV.4: projection on invariants
+//! keeps the order.
 //!
 //! # Alternatives considered
 //!
-//! The change of `a h v x M D v` taken into the equations, as a force: it is of the velocities at the end, and its energy is not that of the law.
-//! No correction: winches that tumble lose up to 2e-3 of the angular momentum at 1/240 s. More of the energy that the method took than that of the
-//! rigid rotation: where some is owed, there is no more.
+//! The change of `a h v x M D v` taken into the equations, as a force: it is of the velocities at
+//! the end, and its energy is not that of the law. No correction: winches that tumble lose up to
+//! 2e-3 of the angular momentum at 1/240 s. More of the energy that the method took than that of
+//! the rigid rotation: where some is owed, there is no more.
 
 use super::{Equations, System, dot, solve_semidefinite};
 use crate::scales::integrate::ALPHA;
@@ -52,7 +60,8 @@ pub(crate) struct Momenta {
     mass: f64,
     /// Sum of mass times place.
     first: Vector3<f64>,
-    /// Sum of mass times place times place, about the origin; the inertia of bodies about their centres.
+    /// Sum of mass times place times place, about the origin; the inertia of bodies about their
+    /// centres.
     second: Matrix3<f64>,
     inertia: Matrix3<f64>,
     /// Momentum and angular momentum about the origin: of M v, and with what flows.
@@ -90,7 +99,8 @@ fn add_sums(sums: &mut [Vector3<f64>; 2], q: &[f64], p: &[f64]) {
     }
 }
 
-/// Returns impulse and angular impulse about the origin of the forces without potential of an iterate.
+/// Returns impulse and angular impulse about the origin of the forces without potential of an
+/// iterate.
 pub(crate) fn outside_impulses(q: &[f64], b: &StepVectors) -> [Vector3<f64>; 2] {
     let mut sums = [Vector3::zeros(); 2];
     for ((q, d), f) in q.chunks_exact(3).zip(b.change.chunks_exact(3)).zip(b.external.chunks_exact(3)) {
@@ -181,8 +191,9 @@ impl Momenta {
         solve_semidefinite(&mut all, rhs).fixed_rows::<3>(0).into_owned()
     }
 
-    /// Returns the change of velocities that restores the momenta: with those when the step began, and impulse and angular impulse about the origin
-    /// of the forces since then; and the momenta after that. Takes and leaves what is owed.
+    /// Returns the change of velocities that restores the momenta: with those when the step began,
+    /// and impulse and angular impulse about the origin of the forces since then; and the momenta
+    /// after that. Takes and leaves what is owed.
     pub fn restore(
         &self,
         owed: &mut [f64; 6],

@@ -11,13 +11,15 @@ use crate::term::Balance;
 use nalgebra::Vector3;
 
 impl Equations<'_> {
-    /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of an island; they close offsets if `close`.
+    /// Finds the contacts of a step, if the cable can have any, with obstacles and with bodies of
+    /// an island; they close offsets if `close`.
     pub fn find_contacts(&self, state: &State, b: &mut StepVectors, (bodies, close): (&[BodyPath], bool)) {
         let lost = if close { state.memory.lost } else { 0.0 };
         self.with_contacts(state, b, (bodies, lost), |contact, motion| contact.begin(motion));
     }
 
-    /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there are any.
+    /// Adds contacts with thin parts of obstacles that the iterate entered; returns whether there
+    /// are any.
     pub fn add_missed_contacts(&self, state: &State, b: &mut StepVectors) -> bool {
         self.with_contacts(state, b, (&[], 0.0), ContactStep::add_missed)
     }
@@ -27,7 +29,8 @@ impl Equations<'_> {
         self.with_contacts(state, b, (&[], 0.0), ContactStep::passes)
     }
 
-    /// Calls `f` with the contacts of a step and its iterate, with bodies of an island, and the power in W that closes offsets.
+    /// Calls `f` with the contacts of a step and its iterate, with bodies of an island, and the
+    /// power in W that closes offsets.
     fn with_contacts<T>(
         &self,
         state: &State,
@@ -63,7 +66,8 @@ impl Equations<'_> {
         }
     }
 
-    /// Finds the impacts of these velocities, those at the beginning and those of bodies, and returns their energy in J.
+    /// Finds the impacts of these velocities, those at the beginning and those of bodies, and
+    /// returns their energy in J.
     pub fn find_impacts(
         &self,
         state: &State,
@@ -76,7 +80,8 @@ impl Equations<'_> {
         contact.find_impacts(mass, |when, e, shape| combine(velocities(when), e, shape), body)
     }
 
-    /// Returns what impacts take of the energy in J of velocities and store in proportion to their share, and in proportion to its square.
+    /// Returns what impacts take of the energy in J of velocities and store in proportion to their
+    /// share, and in proportion to its square.
     pub fn energy_of_impacts(&mut self, b: &mut StepVectors) -> [f64; 2] {
         let held = 0.5 * (1.0 + ALPHA) * self.system.mass_square(&b.landed, &mut b.product);
         [dot(&b.external, &b.product) + ALPHA * dot(&b.velocity_change, &b.product), held]

@@ -38,7 +38,8 @@ impl System {
 }
 
 impl Equations<'_> {
-    /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
+    /// Begins a host step: puts prescribed coordinates in place if supports or the state were
+    /// changed.
     pub fn begin_host_step(&self, state: &mut State) {
         let memory = &mut state.memory;
         memory.valid = false;
@@ -65,8 +66,8 @@ impl Equations<'_> {
         }
     }
 
-    /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if asked. Without it, returns what the
-    /// elements lose, and adds the work of effects to `work`.
+    /// Computes `h (G + F - f) - M D v` of the present iterate into `rhs`, and the step matrix if
+    /// asked. Without it, returns what the elements lose, and adds the work of effects to `work`.
     pub fn step_residual(
         &mut self,
         state: &State,
@@ -130,8 +131,9 @@ impl Equations<'_> {
         }
     }
 
-    /// Computes the forces of everything else, G + F, into `external`. Loads and the coefficients of drag are those of the iterate about
-    /// which the step is linear: the present one if the matrix is asked for.
+    /// Computes the forces of everything else, G + F, into `external`. Loads and the coefficients
+    /// of drag are those of the iterate about which the step is linear: the present one if the
+    /// matrix is asked for.
     fn external_forces(&mut self, state: &State, b: &mut StepVectors, matrix: bool, work: &mut EffectWork) {
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let (level, forces) = (system.level, &mut system.forces);
@@ -179,8 +181,8 @@ impl Equations<'_> {
         b.load_work = dot(external, &b.change) - before - dead;
     }
 
-    /// Returns what the present iterate does to the energy, but for the product of residual and velocity: `rhs` is then the residual of
-    /// all coordinates.
+    /// Returns what the present iterate does to the energy, but for the product of residual and
+    /// velocity: `rhs` is then the residual of all coordinates.
     pub fn step_balance(&mut self, state: &State, b: &mut StepVectors, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
         b.lost = 0.0;
@@ -216,7 +218,8 @@ impl Equations<'_> {
         balance
     }
 
-    /// Adds a share of the increment of the velocity change in `rhs` to the iterate, which becomes the one about which it was linearised.
+    /// Adds a share of the increment of the velocity change in `rhs` to the iterate, which becomes
+    /// the one about which it was linearised.
     pub fn apply_increment(b: &mut StepVectors, share: f64) {
         b.linearised.clone_from(&b.change);
         for i in 0..b.rhs.len() {
@@ -236,7 +239,8 @@ impl Equations<'_> {
         state.v.iter_mut().zip(&b.taken).for_each(|(v, taken)| *v -= taken);
         state.v.iter_mut().zip(&b.landed).for_each(|(v, landed)| *v -= landed);
         state.time += b.h;
-        // the sum above misses them by rounding: a cable between bodies at rest would never be still
+        // the sum above misses them by rounding: a cable between bodies at rest would never be
+        // still
         for (i, end) in self.prescribed_at(state.time) {
             state.q[i] = end;
         }

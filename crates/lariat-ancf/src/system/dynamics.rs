@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! A stage `M z = c2 F(base + z, velocity_base + rate z)` is solved with `(M + c2 (K + rate C)) dz = c2 F - M z` by
-//! [`newton`](crate::integrate::newton); K = -dF/dq, C = -dF/dq'.
+//! A stage `M z = c2 F(base + z, velocity_base + rate z)` is solved with `(M + c2 (K + rate C)) dz
+//! = c2 F - M z` by [`newton`](crate::integrate::newton); K = -dF/dq, C = -dF/dq'.
 
 use super::rigid_motion::relative_velocities;
 use super::vectors::dot;

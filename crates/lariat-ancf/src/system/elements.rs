@@ -16,7 +16,8 @@ use crate::rule::BendingRule;
 use crate::section::Element;
 use crate::simd::padded;
 
-/// Layout: rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that lanes load.
+/// Layout: rows and columns, over (r_i, t_i, r_j, t_j), of the entries of the mass matrix that
+/// lanes load.
 const MASS_ENTRIES: [(usize, usize); 10] =
     [(0, 0), (0, 1), (1, 1), (2, 0), (2, 1), (3, 0), (3, 1), (2, 2), (2, 3), (3, 3)];
 
@@ -41,7 +42,8 @@ macro_rules! with_bending {
     };
 }
 
-/// The rule is chosen where it acts, once for a group of elements: a loop that was compiled for each rule would repeat all the rest.
+/// The rule is chosen where it acts, once for a group of elements: a loop that was compiled for
+/// each rule would repeat all the rest.
 impl Bending for BendingKernel {
     fn energy(&self, g: &Six<f64>) -> f64 {
         with_bending!(self, rule => rule.energy(g))
@@ -70,7 +72,8 @@ pub(crate) struct Elements {
     pub(super) scale: Vec<f64>,
     pub(super) axial: Vec<f64>,
     pub(super) flexural: Vec<f64>,
-    /// Entries of the element's mass matrix: (i, i) rr, rt, tt; (j, i) rr, rt, tr, tt; (j, j) rr, rt, tt. Padded likewise.
+    /// Entries of the element's mass matrix: (i, i) rr, rt, tt; (j, i) rr, rt, tr, tt; (j, j) rr,
+    /// rt, tt. Padded likewise.
     pub(super) mass: [Vec<f64>; 10],
 }
 
@@ -146,7 +149,8 @@ impl Elements {
         Stiffness { axial: self.axial[e], bending: self.flexural[e] }
     }
 
-    /// Returns element `e` as effects see it, at nodal coordinates `q` and, unless that is empty, velocities `v`.
+    /// Returns element `e` as effects see it, at nodal coordinates `q` and, unless that is empty,
+    /// velocities `v`.
     pub fn gram_state(&self, e: usize, q: &[f64], v: &[f64]) -> GramState<'_, f64> {
         let d = self.control(e, q);
         let rates = (!v.is_empty()).then(|| gram_rates(&d, &self.control(e, v)));

@@ -2,7 +2,8 @@
 //!
 //! # Equation
 //!
-//! The work of a force over a step is that along the cubic `q(s)` through positions and velocities at both ends of the step:
+//! The work of a force over a step is that along the cubic `q(s)` through positions and velocities
+//! at both ends of the step:
 //!
 //! ```text
 //! effects, loads   int F(q(s), q'(s), t) . q'(s) ds                     2 Gauss points
@@ -12,26 +13,29 @@
 //! a jump           (v1.M v1 - v0.M v0)/2
 //! ```
 //!
-//! A step is not resolved if the power along the cubic is more than twice that of the mean velocity `dq/h`: velocities at its ends are then
-//! transients that the method damps. By what the two differ the work is uncertain: 6e-3 J of 0.37 J that damping takes of a rope whose end is set in motion
-//! at once, with a tolerance of 1e-4 m. Accelerations are not used, because `h q''` is no velocity that the cable has.
-//! J_p is the impulse by which a held node p gives the cable the momentum that it gains, with the weights of
-//! [`pin_momentum`](crate::island); the mean of the reactions R at both ends of a step is none where a jump of velocity leaves transients. Where the two differ by
-//! more than half of J_p, the second term, by which the force varies with the velocity, is left out.
-//! Spurious energy is
+//! A step is not resolved if the power along the cubic is more than twice that of the mean velocity
+//! `dq/h`: velocities at its ends are then transients that the method damps. By what the two differ
+//! the work is uncertain: 6e-3 J of 0.37 J that damping takes of a rope whose end is set in motion
+//! at once, with a tolerance of 1e-4 m. Accelerations are not used, because `h q''` is no velocity
+//! that the cable has. J_p is the impulse by which a held node p gives the cable the momentum that
+//! it gains, with the weights of [`pin_momentum`](crate::island); the mean of the reactions R at
+//! both ends of a step is none where a jump of velocity leaves transients. Where the two differ by
+//! more than half of J_p, the second term, by which the force varies with the velocity, is left
+//! out. Spurious energy is
 //!
 //! ```text
 //! spurious = T + U + V (after) - T + U + V (before) - external work
 //! ```
 //!
-//! T kinetic, U strain energy, V potential of gravity, constant forces and point loads. The work on a fluid is taken by the smaller of
-//! its powers at the ends of the step, so that the error of a quadrature does not count as spurious. The work of internal damping is
-//! left out, which hides a little spurious energy.
+//! T kinetic, U strain energy, V potential of gravity, constant forces and point loads. The work on
+//! a fluid is taken by the smaller of its powers at the ends of the step, so that the error of a
+//! quadrature does not count as spurious. The work of internal damping is left out, which hides a
+//! little spurious energy.
 //!
 //! # Validity
 //!
-//! Supports and reels that stand still, loads at their full value without moments, no force of the user's own: elsewhere the external work is not
-//! known well enough.
+//! Supports and reels that stand still, loads at their full value without moments, no force of the
+//! user's own: elsewhere the external work is not known well enough.
 
 use super::Equations;
 use super::meter::EnergyMeter;
@@ -51,7 +55,8 @@ fn moves((_, support): &(usize, Support)) -> bool {
     !support.attached && !support.is_still()
 }
 
-/// Spurious energy of a step in J, and kinetic and strain energy at both ends, with that of [`LEAST_STRAIN`].
+/// Spurious energy of a step in J, and kinetic and strain energy at both ends, with that of
+/// [`LEAST_STRAIN`].
 pub(crate) struct EnergyChange {
     pub spurious: f64,
     pub before: f64,
@@ -59,8 +64,8 @@ pub(crate) struct EnergyChange {
 }
 
 impl Equations<'_> {
-    /// Adds the work of effects, point loads, moving supports and nodes `driven` by an island in a step of length `h` (s); `range` is the
-    /// cable's part of the states.
+    /// Adds the work of effects, point loads, moving supports and nodes `driven` by an island in a
+    /// step of length `h` (s); `range` is the cable's part of the states.
     pub fn add_work(&mut self, before: &State, after: &State, h: f64, range: Range<usize>, driven: &[usize]) {
         for k in 0..self.system.feeds.list.len() {
             let feed = self.system.feeds.list[k];
@@ -210,7 +215,8 @@ impl Equations<'_> {
         (meter.reactions, meter.missed, meter.v) = (reactions, missed, inertia);
     }
 
-    /// Returns the share of momenta `p` of all nodes that one of the supports gives: those of nodes between two held ones by the number of nodes.
+    /// Returns the share of momenta `p` of all nodes that one of the supports gives: those of nodes
+    /// between two held ones by the number of nodes.
     fn impulse_at(&self, held: usize, p: &[f64]) -> Vector3<f64> {
         let holds = |(_, support): &&(usize, Support)| support.attached || support.position.is_some();
         let (before, from) = self.model.supports.split_at(held);
@@ -225,7 +231,8 @@ impl Equations<'_> {
         range.map(|node| Vector3::from_column_slice(&p[6 * node..6 * node + 3]) * share(node)).sum()
     }
 
-    /// Returns whether the external work is known by energies. Nodes that are attached to bodies are left to the island.
+    /// Returns whether the external work is known by energies. Nodes that are attached to bodies
+    /// are left to the island.
     fn external_work_is_known(&self, time: f64) -> bool {
         let steady = |load: &PointLoad| load.moment == Vector3::zeros() && load.factor(time) == 1.0;
         self.model.supports.iter().all(|(_, support)| support.is_still())
@@ -234,7 +241,8 @@ impl Equations<'_> {
             && self.system.feeds.are_still()
     }
 
-    /// Returns kinetic and strain energy, and their sum with the potential of gravity and loads, in J.
+    /// Returns kinetic and strain energy, and their sum with the potential of gravity and loads, in
+    /// J.
     fn mechanical_energy(&mut self, time: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
         let system = &mut *self.system;
         system.set_feeds(self.model, time);
@@ -260,7 +268,8 @@ impl Equations<'_> {
         power.total()
     }
 
-    /// Returns the change of energy between two states; `range` is the cable's part of them. `None` if the external work is not known.
+    /// Returns the change of energy between two states; `range` is the cable's part of them. `None`
+    /// if the external work is not known.
     pub fn energy_between(
         &mut self,
         before: &State,

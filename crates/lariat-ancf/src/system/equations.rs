@@ -1,4 +1,5 @@
-//! One evaluation of everything that acts on a cable, `F(q, q', t)`, and the solution with its step matrix.
+//! One evaluation of everything that acts on a cable, `F(q, q', t)`, and the solution with its step
+//! matrix.
 
 use super::lanes::MatrixOutput;
 use super::{System, project_matrix, project_vector};
@@ -25,14 +26,14 @@ impl Equations<'_> {
         self.evaluate(input.time, input, out, None);
     }
 
-    /// Computes the force into `out`, and the step matrix `mass_scale M + scale (K + dv/dq C)`, not yet projected, into the system's:
-    /// K = -dF/dq, C = -dF/dq'.
+    /// Computes the force into `out`, and the step matrix `mass_scale M + scale (K + dv/dq C)`, not
+    /// yet projected, into the system's: K = -dF/dq, C = -dF/dq'.
     pub fn force_and_matrix(&mut self, input: ForceInput<'_>, mass_scale: f64, out: &mut [f64]) {
         self.evaluate(input.time, input, out, Some(mass_scale));
     }
 
-    /// Computes the force on the cable at rest into `out`; `time` is that of the point loads, everything else is as at the cable's own
-    /// time.
+    /// Computes the force on the cable at rest into `out`; `time` is that of the point loads,
+    /// everything else is as at the cable's own time.
     pub fn static_force(&mut self, time: f64, q: &[f64], scale: f64, out: &mut [f64]) {
         self.evaluate(time, self.static_input(q, scale), out, None);
     }
@@ -46,8 +47,8 @@ impl Equations<'_> {
         ForceInput { time: self.system.static_time, q, v: &[], dv_dq: 0.0, scale }
     }
 
-    /// Returns the sum of the impulses that the rows `scale F - M z` of a cable leave unbalanced, and of those that must balance: of
-    /// `inertia`, M z, of the weight, and of what holds nodes.
+    /// Returns the sum of the impulses that the rows `scale F - M z` of a cable leave unbalanced,
+    /// and of those that must balance: of `inertia`, M z, of the weight, and of what holds nodes.
     pub fn unbalanced(&self, scale: f64, rows: &[f64], inertia: &[f64]) -> [f64; 2] {
         let holds = |support: &Support| support.position.is_some() || support.attached;
         let held = self.model.supports.iter().filter(|(_, support)| holds(support));
@@ -141,11 +142,12 @@ impl Equations<'_> {
         self.system.step.factorisation.solve(self.system.level, rhs);
     }
 
-    /// Returns the stage's Newton tolerance in m, at most `tolerance`, for the initial guess `z` and coordinates `base`.
+    /// Returns the stage's Newton tolerance in m, at most `tolerance`, for the initial guess `z`
+    /// and coordinates `base`.
     ///
-    /// z = c2 k: in a short step the tolerance must not hide the acceleration; on a stiff cable a displacement d within the
-    /// tolerance may be a large strain d/l, so EA d/l is held below a share of the inertia force rho A L k as well. No tolerance is
-    /// below rounding.
+    /// z = c2 k: in a short step the tolerance must not hide the acceleration; on a stiff cable a
+    /// displacement d within the tolerance may be a large strain d/l, so EA d/l is held below a
+    /// share of the inertia force rho A L k as well. No tolerance is below rounding.
     pub fn tolerance(&self, tolerance: f64, stage: &Stage, base: &[f64], z: &[f64]) -> f64 {
         let scales = &self.system.scales;
         let scale = scales.extent(z).0 * (scales.stiff_time_squared / stage.c2).min(1.0);

@@ -33,8 +33,9 @@ impl Forces {
         }
     }
 
-    /// Adds all forces to `out`, and overwrites the step matrix if that is asked for; `material` has the velocities of the material, which
-    /// the others are not [at the eye of a reel](super::reel).
+    /// Adds all forces to `out`, and overwrites the step matrix if that is asked for; `material`
+    /// has the velocities of the material, which the others are not [at the eye of a
+    /// reel](super::reel).
     pub fn add(
         &mut self,
         level: Level,
@@ -108,7 +109,8 @@ impl Forces {
         self.densities = model.force_densities.at_points(&model.elements);
     }
 
-    /// The quantity of the last evaluation that was not finite and its node, if a function of the user's made it.
+    /// The quantity of the last evaluation that was not finite and its node, if a function of the
+    /// user's made it.
     pub fn not_finite(&self) -> Option<(&'static str, usize)> {
         self.densities.as_ref()?.not_finite().map(|element| ("force density", element))
     }

@@ -2,9 +2,9 @@
 //!
 //! # Equation
 //!
-//! The largest frequency of an assembled model is at most the largest of its elements taken alone. For a straight element of unit
-//! stretch the problem splits into the axial and the bending one, each 4x4 with the matrices of Hermite's functions; in units of l
-//! they are constants:
+//! The largest frequency of an assembled model is at most the largest of its elements taken alone.
+//! For a straight element of unit stretch the problem splits into the axial and the bending one,
+//! each 4x4 with the matrices of Hermite's functions; in units of l they are constants:
 //!
 //! ```text
 //! omega_axial = c_a sqrt(EA/rhoA)/l          omega_bending = c_b sqrt(EI/rhoA)/l^2
@@ -24,7 +24,8 @@ use crate::quadrature::gauss_legendre;
 use crate::rule::BendingRule;
 use nalgebra::Matrix4;
 
-/// Returns the largest eigenvalue of `M^-1 K` for unit mass per length, length and stiffness, `K = int D^T D`.
+/// Returns the largest eigenvalue of `M^-1 K` for unit mass per length, length and stiffness, `K =
+/// int D^T D`.
 fn largest(derivative: fn(f64, f64) -> [f64; 4]) -> f64 {
     let m = Matrix4::from_fn(|i, j| mass::consistent(1.0, 1.0)[i][j]);
     let k = Matrix4::from_fn(|i, j| {

@@ -1,4 +1,5 @@
-//! The exact derivatives of the force by position and by velocity, of everything that acts on a cable.
+//! The exact derivatives of the force by position and by velocity, of everything that acts on a
+//! cable.
 //!
 //! # Equation
 //!
@@ -6,18 +7,19 @@
 //! K = -dF/dq        C = -dF/dq'        F = elastic + rest shape + damping + drag + own force densities + potentials + moments of point loads
 //! ```
 //!
-//! K is not symmetric with damping, drag or moments: they are no gradients. Each element is evaluated by the scalar form of its
-//! kernels with dual numbers, once per coordinate.
+//! K is not symmetric with damping, drag or moments: they are no gradients. Each element is
+//! evaluated by the scalar form of its kernels with dual numbers, once per coordinate.
 //!
 //! # Validity
 //!
-//! Exact to rounding, but at kinks: the rows of a flow's profile, drag at zero speed; forces of the user's own to the error of their
-//! derivatives. For linear stability, control, and checks of the step matrix.
+//! Exact to rounding, but at kinks: the rows of a flow's profile, drag at zero speed; forces of the
+//! user's own to the error of their derivatives. For linear stability, control, and checks of the
+//! step matrix.
 //!
 //! # Alternatives considered
 //!
-//! K in the matrix of the step, which takes the symmetric parts that [`damping`](crate::effect::damping) and
-//! [`drag`](crate::effect::drag) name.
+//! K in the matrix of the step, which takes the symmetric parts that
+//! [`damping`](crate::effect::damping) and [`drag`](crate::effect::drag) name.
 
 use super::System;
 use super::elements::Elements;
@@ -52,7 +54,8 @@ impl Jacobians {
     }
 }
 
-/// Adds the negative derivatives of the forces of all elements along `q += rates[0] e_i`, `v += rates[1] e_i`.
+/// Adds the negative derivatives of the forces of all elements along `q += rates[0] e_i`, `v +=
+/// rates[1] e_i`.
 fn add_elements(forces: &Forces, at: ForceInput<'_>, rates: [f64; 2], matrix: &mut DMatrix<f64>) {
     for e in 0..forces.elements.count() {
         for i in 0..12 {

@@ -1,9 +1,11 @@
-//! From elements to nodes: the force of all elements and its tangent, eight elements at a time or one by one ([`group`]).
+//! From elements to nodes: the force of all elements and its tangent, eight elements at a time or
+//! one by one ([`group`]).
 //!
 //! # Equation
 //!
 //! Control vectors are gathered from the nodal coordinates (r, t), the kernel runs
-//! ([`kernel`](crate::element::kernel)), and the result is scattered with d1 = s (r_j - r_i), s = 3/l:
+//! ([`kernel`](crate::element::kernel)), and the result is scattered with d1 = s (r_j - r_i), s =
+//! 3/l:
 //!
 //! ```text
 //! dU/dr_i = -s G1   dU/dt_i = G0   dU/dr_j = s G1   dU/dt_j = G2        G_k = dU/dd_k
@@ -11,9 +13,10 @@
 //!
 //! # Validity
 //!
-//! Elements are added in ascending order whatever the width of the lanes, so sums round the same way everywhere. The last group is
-//! padded with elements without length, which are computed and dropped. Effects are a type parameter of the loop: a cable without
-//! any runs code that does not contain them.
+//! Elements are added in ascending order whatever the width of the lanes, so sums round the same
+//! way everywhere. The last group is padded with elements without length, which are computed and
+//! dropped. Effects are a type parameter of the loop: a cable without any runs code that does not
+//! contain them.
 
 pub(crate) mod discrete_gradient;
 mod dispatch;
@@ -47,8 +50,8 @@ impl Elements {
         }
     }
 
-    /// Adds the force of all elements to `out`, and overwrites the matrix by its negative derivative (the stiffness) plus the mass
-    /// matrix, times their factors.
+    /// Adds the force of all elements to `out`, and overwrites the matrix by its negative
+    /// derivative (the stiffness) plus the mass matrix, times their factors.
     pub fn add_force_and_matrix(
         &self,
         level: Level,

@@ -109,7 +109,8 @@ impl Loads {
         self.of_effects.work(q)
     }
 
-    /// Returns the work of a share of the point forces from the origin to `q`, in J; moments have none in general.
+    /// Returns the work of a share of the point forces from the origin to `q`, in J; moments have
+    /// none in general.
     pub fn point_work(&self, model: &Model, share: f64, q: &[f64]) -> f64 {
         let work = |load: &PointLoad| {
             let (e, xi) = model.locate(load.arc_length);
@@ -172,7 +173,8 @@ impl Loads {
             let Some(matrix) = matrix.as_deref_mut() else { continue };
             for (k, m) in (0..4).flat_map(|k| (0..4).map(move |m| (k, m))) {
                 let weight = -factor * weights[k] * weights[m];
-                // rows of coordinate k, columns of coordinate m; only one triangle of blocks is stored
+                // rows of coordinate k, columns of coordinate m; only one triangle of blocks is
+                // stored
                 let block = match (k / 2, m / 2) {
                     (0, 0) => &mut matrix.diag[e],
                     (1, 1) => &mut matrix.diag[e + 1],

@@ -43,7 +43,8 @@ impl Mass {
         Ok(mass)
     }
 
-    /// Sets the mass of element `e` to that of its length in m, with a mass in kg at each end of the cable; the factors stay.
+    /// Sets the mass of element `e` to that of its length in m, with a mass in kg at each end of
+    /// the cable; the factors stay.
     pub fn set_element(&mut self, model: &Model, e: usize, length: impl Fn(usize) -> f64, at_ends: [f64; 2]) {
         let of = |e: Option<usize>| match e.filter(|&e| e < model.elements.len()) {
             Some(e) => mass::consistent(model.inertia(&model.elements[e]), length(e)),

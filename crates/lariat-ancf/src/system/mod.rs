@@ -1,7 +1,8 @@
 //! The equations of one cable, derived from its [`Model`]: forces, loads, mass, step matrix.
 //!
-//! Everything here is rebuilt when the model changes; nothing of it is part of a snapshot. The parts borrow apart: an evaluation reads
-//! forces and loads and writes the step matrix, while its caller owns the [buffers](Buffers).
+//! Everything here is rebuilt when the model changes; nothing of it is part of a snapshot. The
+//! parts borrow apart: an evaluation reads forces and loads and writes the step matrix, while its
+//! caller owns the [buffers](Buffers).
 //!
 //! | file | what it holds |
 //! |---|---|
@@ -97,7 +98,8 @@ pub(crate) struct StepMatrix {
     pub factored: f64,
 }
 
-/// Vectors of an evaluation or a step; empty between two steps, their contents are unspecified when one begins.
+/// Vectors of an evaluation or a step; empty between two steps, their contents are unspecified when
+/// one begins.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Buffers {
     /// Residual of a stage, and its increment.
@@ -122,7 +124,8 @@ pub(crate) struct Scales {
     pub mass: f64,
     /// Smallest `L l rhoA/EA` in s^2: an acceleration k strains an element by this times k/l.
     pub stiff_time_squared: f64,
-    /// Of all elements but the first and the last, whose lengths reels change: mass in kg, length in m, smallest `l rhoA/EA` in s^2/m.
+    /// Of all elements but the first and the last, whose lengths reels change: mass in kg, length
+    /// in m, smallest `l rhoA/EA` in s^2/m.
     inner: [f64; 3],
 }
 
@@ -205,7 +208,8 @@ impl Scales {
         scales
     }
 
-    /// Sets all but the bound of the frequencies to the present lengths of the first and the last element, which reels change.
+    /// Sets all but the bound of the frequencies to the present lengths of the first and the last
+    /// element, which reels change.
     pub fn measure_ends(&mut self, model: &Model) {
         let last = model.elements.len() - 1;
         let lever = |e: usize| model.elements[e].length / 8.0;
@@ -221,7 +225,8 @@ impl Scales {
         self.weight_energy = mass * STANDARD_GRAVITY.norm() * LEAST_HEIGHT;
     }
 
-    /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over l/8), and the largest |t|.
+    /// Returns the largest component of a nodal vector as a displacement in m (of r, and of t over
+    /// l/8), and the largest |t|.
     pub fn extent(&self, x: &[f64]) -> (f64, f64) {
         let (mut displacement, mut slope, mut not_finite) = (0.0f64, 0.0f64, 0.0f64);
         for (x, lever) in x.chunks_exact(6).zip(&self.slope_lever) {

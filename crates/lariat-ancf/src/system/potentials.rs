@@ -64,7 +64,8 @@ impl PointPotentials {
         }
     }
 
-    /// Adds their mean forces over a step to `external`, and `b h^2` times minus the derivatives to the matrix.
+    /// Adds their mean forces over a step to `external`, and `b h^2` times minus the derivatives to
+    /// the matrix.
     pub fn add_over_step(
         &self,
         model: &Model,

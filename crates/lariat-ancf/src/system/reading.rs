@@ -1,18 +1,23 @@
-//! Tension and strain read from the coordinates of a cable, between steps and within them, and the largest load.
+//! Tension and strain read from the coordinates of a cable, between steps and within them, and the
+//! largest load.
 //!
 //! # Equation
 //!
-//! As [`Cable::sample`](crate::Cable::sample) reads them: `N = EA (eps + that of effects) f` with the projected Green strain eps, averaged at nodes, and the strain `f/f_0 - 1`, f_0 the
-//! rest stretch. Both are largest at ends of elements. An element at the eye of a reel is read at the length that it has at the time of the reading.
+//! As [`Cable::sample`](crate::Cable::sample) reads them: `N = EA (eps + that of effects) f` with
+//! the projected Green strain eps, averaged at nodes, and the strain `f/f_0 - 1`, f_0 the rest
+//! stretch. Both are largest at ends of elements. An element at the eye of a reel is read at the
+//! length that it has at the time of the reading.
 //!
 //! # Validity
 //!
-//! A cable with a limit of its load is read at the beginning of a host step and after every integration step that is accepted, with each method; one without never, which the
-//! counter `load_readings` shows.
+//! A cable with a limit of its load is read at the beginning of a host step and after every
+//! integration step that is accepted, with each method; one without never, which the counter
+//! `load_readings` shows.
 //!
 //! # Alternatives considered
 //!
-//! Only the end of host steps: a rope that is loaded at once broke at 1.28 of its limit at 30 Hz, and a peak between two host steps broke nothing.
+//! Only the end of host steps: a rope that is loaded at once broke at 1.28 of its limit at 30 Hz,
+//! and a peak between two host steps broke nothing.
 
 use super::{Equations, System};
 use crate::element::axial::projected;
@@ -41,7 +46,8 @@ pub(crate) struct Pull {
     pub green_strain: f64,
 }
 
-/// Tension at a node in N: what the elements before and behind it miss to the average, and the jump between them.
+/// Tension at a node in N: what the elements before and behind it miss to the average, and the jump
+/// between them.
 #[derive(Clone, Copy)]
 pub(crate) struct NodeTension {
     pub missing: [f64; 2],
@@ -89,7 +95,8 @@ impl<'a> Reading<'a> {
         [0.0, 1.0].map(|xi| self.pull(e, xi, &state))
     }
 
-    /// Returns the tension at a node between two elements at an arc length in m, if it is continuous there; `before` and `behind` are read there.
+    /// Returns the tension at a node between two elements at an arc length in m, if it is
+    /// continuous there; `before` and `behind` are read there.
     pub fn at_node(&self, node: usize, s: f64, before: Pull, behind: Pull) -> Option<NodeTension> {
         if !self.model.is_smooth_at(node, s) {
             return None;

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! The rigid motions that supports allow are all six of a cable without any, the rotations about the node whose position is held, if that is
-//! the only support, and none otherwise. The relative velocities are what is left after their projection in the norm of the mass matrix:
+//! The rigid motions that supports allow are all six of a cable without any, the rotations about
+//! the node whose position is held, if that is the only support, and none otherwise. The relative
+//! velocities are what is left after their projection in the norm of the mass matrix:
 //!
 //! ```text
 //! w = v - v_support - sum_k c_k b_k,     b_j.M w = 0
@@ -34,7 +35,8 @@ impl Modes<'_> {
         Vector3::ith(k - 3, 1.0).cross(&if position { arm - self.origin } else { arm })
     }
 
-    /// Adds the momenta of velocities `v` in the modes from `first` on, and the inertia of these; `momentum` and `mode` are buffers.
+    /// Adds the momenta of velocities `v` in the modes from `first` on, and the inertia of these;
+    /// `momentum` and `mode` are buffers.
     pub fn add_momenta(
         &self,
         system: &System,
@@ -56,7 +58,8 @@ impl Modes<'_> {
     }
 }
 
-/// Replaces the velocities `w` at coordinates `q` by their relative part; `momentum` and `mode` are buffers.
+/// Replaces the velocities `w` at coordinates `q` by their relative part; `momentum` and `mode` are
+/// buffers.
 pub(crate) fn relative_velocities(
     model: &Model,
     system: &System,

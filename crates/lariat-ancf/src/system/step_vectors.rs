@@ -7,7 +7,8 @@ use nalgebra::Vector3;
 /// Linear momentum, angular momentum about the centre of mass, and the centre.
 pub(crate) type Before = [Vector3<f64>; 3];
 
-/// Vectors of a step, with as many numbers as there are coordinates; empty until the method is used.
+/// Vectors of a step, with as many numbers as there are coordinates; empty until the method is
+/// used.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepVectors {
     /// Length of the step in s.
@@ -32,7 +33,8 @@ pub(crate) struct StepVectors {
     pub rhs: Vec<f64>,
     /// Forces without potential.
     pub external: Vec<f64>,
-    /// Mean coordinates and velocities of the present iterate, and of the one about which it was linearised.
+    /// Mean coordinates and velocities of the present iterate, and of the one about which it was
+    /// linearised.
     pub means: [Vec<f64>; 4],
     /// Energy in J that contacts with obstacles lose.
     pub lost: f64,
@@ -48,15 +50,17 @@ pub(crate) struct StepVectors {
     pub before: Option<Before>,
     /// Those of the end of the step before, if it was in the same host step.
     pub after: Option<Before>,
-    /// Impulse and angular impulse about the origin of the forces without potential, if they are asked for.
+    /// Impulse and angular impulse about the origin of the forces without potential, if they are
+    /// asked for.
     pub outside: Option<[Vector3<f64>; 2]>,
 }
 
 impl StepVectors {
-    /// Takes up the memory of `state` for a step of length `h` (s), and predicts its changes by a constant acceleration.
+    /// Takes up the memory of `state` for a step of length `h` (s), and predicts its changes by a
+    /// constant acceleration.
     ///
-    /// After a longer step the changes are scaled down to the length of this one, which only loses energy of the store; after a
-    /// shorter one they stay.
+    /// After a longer step the changes are scaled down to the length of this one, which only loses
+    /// energy of the store; after a shorter one they stay.
     pub fn recall(&mut self, state: &State, h: f64) {
         let differences = &state.memory.differences;
         let size = state.q.len();

@@ -1,4 +1,5 @@
-//! The energy that the [discrete gradient](crate::integrate::discrete_gradient) holds between steps.
+//! The energy that the [discrete gradient](crate::integrate::discrete_gradient) holds between
+//! steps.
 //!
 //! # Equation
 //!

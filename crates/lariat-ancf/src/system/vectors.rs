@@ -1,6 +1,7 @@
 //! Products of nodal vectors.
 
-/// Returns the product of nodal vectors, summed by coordinate of the node first: one sum would wait for every addition.
+/// Returns the product of nodal vectors, summed by coordinate of the node first: one sum would wait
+/// for every addition.
 #[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     let ((x, _), (y, _)) = (x.as_chunks::<6>(), y.as_chunks::<6>());

@@ -1,4 +1,5 @@
-//! The energy balance of one cable, or of the island of which it is the first, from host step to host step. Equation: [`EnergyBalance`].
+//! The energy balance of one cable, or of the island of which it is the first, from host step to
+//! host step. Equation: [`EnergyBalance`].
 
 use super::balance::{EnergyBalance, Sizes};
 use crate::scales::term::TOLERANCE;
@@ -29,7 +30,8 @@ pub(crate) struct Last {
     pub(crate) gravity: f64,
 }
 
-/// Energies of an island in J when its cables and bodies were first read together, and their number.
+/// Energies of an island in J when its cables and bodies were first read together, and their
+/// number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Start {
     pub(crate) parts: [usize; 2],
@@ -58,7 +60,8 @@ pub struct CableTerms {
 }
 
 impl CableTerms {
-    /// Returns the sum of energies and dissipated energy, less the work: constant but for what integration makes or loses.
+    /// Returns the sum of energies and dissipated energy, less the work: constant but for what
+    /// integration makes or loses.
     pub fn sum(&self) -> f64 {
         self.kinetic + self.strain + self.gravity + self.dissipated - self.work
     }
@@ -75,7 +78,8 @@ impl CableTerms {
     }
 }
 
-/// What a step of integration made of an island, cables and the bodies that move with them: for [`Cable::note_island`](crate::coupling::Coupling::note_island).
+/// What a step of integration made of an island, cables and the bodies that move with them: for
+/// [`Cable::note_island`](crate::coupling::Coupling::note_island).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IslandChange {
     /// Change of the balance in J.
@@ -107,8 +111,8 @@ impl CableAccount {
         self.balance.rounding_j = self.errors.iter().sum();
     }
 
-    /// Adds a step of the island, which ended at a time in s. Differences are within steps alone: an island that changes between them needs no new
-    /// account, only other energies to begin with.
+    /// Adds a step of the island, which ended at a time in s. Differences are within steps alone:
+    /// an island that changes between them needs no new account, only other energies to begin with.
     pub(crate) fn add(&mut self, time: f64, step: &IslandChange) {
         let Sizes { kinetic, strain, gravity, .. } = step.sizes;
         let parts = step.parts;

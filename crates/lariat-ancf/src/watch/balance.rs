@@ -8,19 +8,23 @@
 //!                a strain of 1e-6, so far
 //! ```
 //!
-//! The work on one cable is that of its effects, loads, supports and reels. A cable that exchanges energy with dynamic bodies or other cables has
-//! the balance of all that moves together with it, its island, of which the first cable tells ([`IslandChange`]); a run of a scene has one of everything.
-//! Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account for, is worth a warning.
+//! The work on one cable is that of its effects, loads, supports and reels. A cable that exchanges
+//! energy with dynamic bodies or other cables has the balance of all that moves together with it,
+//! its island, of which the first cable tells ([`IslandChange`]); a run of a scene has one of
+//! everything. Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account
+//! for, is worth a warning.
 //!
 //! # Validity
 //!
-//! The discrete gradient has an energy law: B is then its residual less what it lost, and counts as made beyond the energy that damping took,
-//! because the residual of a step may be as large. A step in which a program changes positions, velocities, loads, supports or effects is left
-//! out, and so is a cable with contact and a reel. The balance is no estimate of the error of positions.
+//! The discrete gradient has an energy law: B is then its residual less what it lost, and counts as
+//! made beyond the energy that damping took, because the residual of a step may be as large. A step
+//! in which a program changes positions, velocities, loads, supports or effects is left out, and so
+//! is a cable with contact and a reel. The balance is no estimate of the error of positions.
 //!
 //! # References
 //!
-//! Work-energy theorem; quadratures: [`Cable::effect_work`](crate::Cable::effect_work), [`Cable::energy_law`](crate::Cable::energy_law).
+//! Work-energy theorem; quadratures: [`Cable::effect_work`](crate::Cable::effect_work),
+//! [`Cable::energy_law`](crate::Cable::energy_law).
 //!
 //! # Alternatives considered
 //!
@@ -44,11 +48,13 @@ pub struct EnergyBalance {
     pub lost_j: f64,
     /// Host time of that in s.
     pub lost_at_s: f64,
-    /// Energy of the run in J, to compare with: the largest of kinetic energy, changes of strain energy and of that of gravity, dissipated
-    /// energy, work, all weight times 1 mm, and the energy of a strain of 1e-6 of all cables.
+    /// Energy of the run in J, to compare with: the largest of kinetic energy, changes of strain
+    /// energy and of that of gravity, dissipated energy, work, all weight times 1 mm, and the
+    /// energy of a strain of 1e-6 of all cables.
     pub scale_j: f64,
-    /// Errors in J that the balance may have: rounding of the energies, which are differences, and of the positions of bodies in single
-    /// precision, by which the forces of cables do work in every step; and in steps that do not resolve the motion, of the quadrature of what damping
+    /// Errors in J that the balance may have: rounding of the energies, which are differences, and
+    /// of the positions of bodies in single precision, by which the forces of cables do work in
+    /// every step; and in steps that do not resolve the motion, of the quadrature of what damping
     /// and drag take.
     pub rounding_j: f64,
     /// Energy that damping and drag took in J.
@@ -87,7 +93,8 @@ impl EnergyBalance {
         self.share(self.made_j)
     }
 
-    /// Returns the share of the energy of the run that integration lost at most, beyond rounding errors.
+    /// Returns the share of the energy of the run that integration lost at most, beyond rounding
+    /// errors.
     pub fn lost(&self) -> f64 {
         self.share(self.lost_j)
     }
@@ -97,8 +104,9 @@ impl EnergyBalance {
         if beyond > 0.0 { beyond / self.scale_j } else { 0.0 }
     }
 
-    /// Adds the change (J) of the balance in the host step that ended at a time in s, after dissipated energy and work were set; `by_law` if it is
-    /// that of the energy law of the discrete gradient, which sees to it that a step makes no more than damping takes.
+    /// Adds the change (J) of the balance in the host step that ended at a time in s, after
+    /// dissipated energy and work were set; `by_law` if it is that of the energy law of the
+    /// discrete gradient, which sees to it that a step makes no more than damping takes.
     pub fn add(&mut self, time: f64, change: f64, by_law: bool, sizes: &Sizes) {
         self.balance_j += change;
         let Sizes { kinetic, strain, gravity, weight, stiffness } = *sizes;

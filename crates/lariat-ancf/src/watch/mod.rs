@@ -1,4 +1,5 @@
-//! The worst readings of a cable over a run, as plain data. [`warning`](crate::warning) takes and judges them.
+//! The worst readings of a cable over a run, as plain data. [`warning`](crate::warning) takes and
+//! judges them.
 
 mod account;
 mod balance;
@@ -39,7 +40,8 @@ pub struct Watch {
     pub(crate) start: Option<Vec<f64>>,
     /// Estimate of the error of position in m.
     pub(crate) position: f64,
-    /// Estimate of the error of the displacement in m: the less of those of the shape and of its change.
+    /// Estimate of the error of the displacement in m: the less of those of the shape and of its
+    /// change.
     pub(crate) motion: f64,
     /// Largest displacement in m.
     pub(crate) displacement: f64,
@@ -66,7 +68,8 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Leaves the coming step out of the energy balance, because a program changes the state before it.
+    /// Leaves the coming step out of the energy balance, because a program changes the state before
+    /// it.
     pub(crate) fn interrupt(&mut self) {
         self.account.interrupt();
     }

@@ -10,10 +10,10 @@
 //! h (target - mean velocity)`. The ledger takes the opposite impulse, so that its velocity after
 //! the step tells the total impulse p; the impulse that Rapier reports is that of its last substep.
 //!
-//! *Sleep.* Rapier may wake a body within its step: a contact begins, what it stands on is removed, a
-//! joint changes. The motors of a sleeping body therefore exert the force F and the moment of its cable:
-//! Rapier does not solve them while the body sleeps, and gives them to it in the very step in which it
-//! wakes. A force is a motor too: target F/damping beside v_target.
+//! *Sleep.* Rapier may wake a body within its step: a contact begins, what it stands on is removed,
+//! a joint changes. The motors of a sleeping body therefore exert the force F and the moment of its
+//! cable: Rapier does not solve them while the body sleeps, and gives them to it in the very step
+//! in which it wakes. A force is a motor too: target F/damping beside v_target.
 //!
 //! # Validity
 //! The ledger must be the first body of the joint: with free linear axes Rapier takes the anchor of
@@ -38,8 +38,8 @@ const ANGULAR_AXES: [JointAxis; 3] = [JointAxis::AngX, JointAxis::AngY, JointAxi
 pub(crate) struct Ledger {
     pub body: RigidBodyHandle,
     joint: ImpulseJointHandle,
-    /// Force in N that the motors exert on a sleeping body should it wake up, and the step in s that their impedance is
-    /// for; `None` while it is awake.
+    /// Force in N that the motors exert on a sleeping body should it wake up, and the step in s
+    /// that their impedance is for; `None` while it is awake.
     #[serde(default)]
     pub rest: Option<(Vector3<f64>, f64)>,
 }
@@ -71,8 +71,8 @@ impl Ledger {
         Ledger { body, joint, rest: None }
     }
 
-    /// Returns a ledger of a sleeping body that sleeps with it: this one if it fell asleep with the body, else a new
-    /// one, since an awake one would wake it.
+    /// Returns a ledger of a sleeping body that sleeps with it: this one if it fell asleep with the
+    /// body, else a new one, since an awake one would wake it.
     pub fn asleep(self, world: &mut PhysicsWorld, attached: RigidBodyHandle) -> Ledger {
         let linked = world.impulse_joints.get(self.joint).is_some_and(|joint| joint.data.is_enabled());
         if linked && world.bodies.get(self.body).is_some_and(RigidBody::is_sleeping) {
@@ -127,8 +127,8 @@ impl Ledger {
         }
     }
 
-    /// Returns the impulse in N s of the motors on the attached body over the last step of `h` (s), without that of
-    /// the rest force, and stops the ledger. A body that slept felt none.
+    /// Returns the impulse in N s of the motors on the attached body over the last step of `h` (s),
+    /// without that of the rest force, and stops the ledger. A body that slept felt none.
     pub fn take_impulse(&self, world: &mut PhysicsWorld, h: f64) -> Vector3<f64> {
         let Some(body) = world.bodies.get(self.body) else { return Vector3::zeros() };
         if body.is_sleeping() {

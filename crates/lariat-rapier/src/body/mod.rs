@@ -1,4 +1,5 @@
-//! Bodies of the world, each by itself: what the mechanics read of them, what is remembered of their motion, and what they are near.
+//! Bodies of the world, each by itself: what the mechanics read of them, what is remembered of
+//! their motion, and what they are near.
 //!
 //! | file | what it does |
 //! |---|---|

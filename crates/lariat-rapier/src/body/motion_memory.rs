@@ -1,12 +1,14 @@
 //! What is kept of the prescribed motion of a body from host step to host step.
 //!
 //! # Equation
-//! The user's poses are in single precision. As long as they lie on a line in time, within their rounding, the body follows the line of least
-//! squares through all of them: after the k-th, with the residual e of the position that the last line gives,
+//! The user's poses are in single precision. As long as they lie on a line in time, within their
+//! rounding, the body follows the line of least squares through all of them: after the k-th, with
+//! the residual e of the position that the last line gives,
 //! ```text
 //! x += 2 (2k - 1)/(k (k + 1)) e        V += 6/(k (k + 1)) e/H
 //! ```
-//! Taken for motion, the rounding u of a pose makes a straight cable of stiffness EA/L with axial retardation time T pull by u EA/L (1 + T/H).
+//! Taken for motion, the rounding u of a pose makes a straight cable of stiffness EA/L with axial
+//! retardation time T pull by u EA/L (1 + T/H).
 
 use crate::body::pose::OriginPose;
 use ::nalgebra::Vector3;
@@ -16,7 +18,8 @@ use serde::{Deserialize, Serialize};
 /// Velocity in m/s and angular velocity in rad/s.
 pub(crate) type Velocities = [Vector3<f64>; 2];
 
-/// The line of least squares through the last positions of a body: its velocity in m/s, and how many positions.
+/// The line of least squares through the last positions of a body: its velocity in m/s, and how
+/// many positions.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Line {
     velocity: Vector3<f64>,
@@ -39,8 +42,9 @@ impl Line {
     }
 }
 
-/// What is kept of a host step for the next: the poses at both ends, the accelerations of the reference point and of the rotation, the velocities
-/// of the origin at the end, and its length in s.
+/// What is kept of a host step for the next: the poses at both ends, the accelerations of the
+/// reference point and of the rotation, the velocities of the origin at the end, and its length in
+/// s.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct MotionMemory {
     pub poses: [OriginPose; 2],

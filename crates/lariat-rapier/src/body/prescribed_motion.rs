@@ -7,34 +7,39 @@
 //! ```
 //! v is the mean velocity of the body's reference point over a host step of H, v0 and v1 are its
 //! velocities at both ends; the values of the last host step have a prime; angular velocities
-//! alike. The reference point is one that hardly accelerates: the centre of mass of a body that Rapier moves by its velocity; of one that
-//! is moved to poses x, R the point c (body axes) with the least of
+//! alike. The reference point is one that hardly accelerates: the centre of mass of a body that
+//! Rapier moves by its velocity; of one that is moved to poses x, R the point c (body axes) with
+//! the least of
 //! ```text
 //! (theta/12)^2 |dv + dV c|^2 + (eps/H + e)^2 |c|^2        dv = (x1 - x0)/H - (x0 - x')/H'    dV = (R1 - R0)/H - (R0 - R')/H'
 //! ```
-//! The first term is what the velocity at the end lacks if the acceleration of c turns by theta in the host step, the second what c adds by
-//! the rounding eps of an attitude, and by e, the error of the angular velocity at the end, for which a quarter of its second difference is taken.
-//! A body on a steady circle gets the centre of the circle, one that does not rotate its origin.
+//! The first term is what the velocity at the end lacks if the acceleration of c turns by theta in
+//! the host step, the second what c adds by the rounding eps of an attitude, and by e, the error of
+//! the angular velocity at the end, for which a quarter of its second difference is taken. A body
+//! on a steady circle gets the centre of the circle, one that does not rotate its origin.
 //!
 //! Between the ends the body follows cubics, so that its motion is once continuously
 //! differentiable where it accelerates steadily (s = 1). Where it starts, stops or turns a corner
 //! (s = 0), its velocity jumps, as Rapier's does. A body that rotates steadily gives each anchor
 //! the velocity v + w x r at both ends of a step.
 //!
-//! The poses lie on a line in time where they can, within their rounding ([`crate::body::motion_memory`]).
+//! The poses lie on a line in time where they can, within their rounding
+//! ([`crate::body::motion_memory`]).
 //!
 //! # Validity
-//! A body that is slower than the rounding of its position per host step is at rest in some of them, and keeps that rounding; so does one that
-//! accelerates, and attitudes do. The error of the velocities of the reference point is of second order in H: a winch that circles without turning
-//! keeps it. If a host step is split, a body that Rapier moves by its velocity is between the ends where Rapier moves it to: uniformly from its first
-//! to its last pose.
+//! A body that is slower than the rounding of its position per host step is at rest in some of
+//! them, and keeps that rounding; so does one that accelerates, and attitudes do. The error of the
+//! velocities of the reference point is of second order in H: a winch that circles without turning
+//! keeps it. If a host step is split, a body that Rapier moves by its velocity is between the ends
+//! where Rapier moves it to: uniformly from its first to its last pose.
 //!
 //! # Alternatives considered
-//! Uniform motion between the poses: the velocity of an anchor on a rotating body then jumps by
-//! w^2 r H at every step, which makes a rope of 0.1 kg on a rim of 0.2 m at 10 rad/s pull by 838 N
-//! in place of 7 N. Cubics that are continuously differentiable everywhere: where a winch starts,
-//! they overshoot its speed by a quarter, and the peak of the tension by (w H)^2/12. The origin as reference point of a body that is moved to
-//! poses: a body that turns about a point 0.5 m from it at 10 rad/s, 60 Hz, read 5.4 N of 7 N.
+//! Uniform motion between the poses: the velocity of an anchor on a rotating body then jumps by w^2
+//! r H at every step, which makes a rope of 0.1 kg on a rim of 0.2 m at 10 rad/s pull by 838 N in
+//! place of 7 N. Cubics that are continuously differentiable everywhere: where a winch starts, they
+//! overshoot its speed by a quarter, and the peak of the tension by (w H)^2/12. The origin as
+//! reference point of a body that is moved to poses: a body that turns about a point 0.5 m from it
+//! at 10 rad/s, 60 Hz, read 5.4 N of 7 N.
 
 use crate::body::is_integrated;
 use crate::body::motion_memory::{Line, MotionMemory, Velocities};
@@ -80,8 +85,8 @@ pub(crate) fn pose_after(world: &PhysicsWorld, handle: RigidBodyHandle, h: f64) 
     }
 }
 
-/// Returns the pose of a kinematic body after Rapier moved it from `start` by its velocity for `h` (s), with a
-/// linearised rotation in each substep.
+/// Returns the pose of a kinematic body after Rapier moved it from `start` by its velocity for `h`
+/// (s), with a linearised rotation in each substep.
 fn moved_by_velocity(world: &PhysicsWorld, handle: RigidBodyHandle, start: OriginPose, h: f64) -> OriginPose {
     let body = &world.bodies[handle];
     let substeps = world.integration_parameters.num_solver_iterations.max(1);
@@ -180,7 +185,8 @@ impl BodyMotion {
     }
 }
 
-/// Returns the reference point, in body axes, of a body that is moved to poses in a host step of `h` (s) after the `last`.
+/// Returns the reference point, in body axes, of a body that is moved to poses in a host step of
+/// `h` (s) after the `last`.
 fn least_accelerated_point(poses: &[OriginPose; 2], h: f64, last: &MotionMemory) -> Vector3<f64> {
     let rates = |poses: &[OriginPose; 2], h: f64| {
         let [start, end] = [0, 1].map(|i| poses[i].1.to_rotation_matrix().into_inner());
@@ -228,7 +234,8 @@ impl PrescribedMotions {
         }
     }
 
-    /// Begins Rapier step `done` of `steps`: where each body is and will be; sets the poses of those that the user moves to one.
+    /// Begins Rapier step `done` of `steps`: where each body is and will be; sets the poses of
+    /// those that the user moves to one.
     pub fn advance(&mut self, records: &mut Records, world: &mut PhysicsWorld, done: u32, steps: u32) {
         let h = f64::from(world.integration_parameters.dt);
         for motion in &mut self.0 {

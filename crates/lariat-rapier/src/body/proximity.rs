@@ -4,7 +4,8 @@
 //! within its prediction distance. A body that moves farther than that in a step meets others
 //! before they are listed: its box, swept along its displacement, is looked up among all others.
 //!
-//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below it. Therefore the distance decides.
+//! Boxes along the axes overlap long before bodies do: that of a long lever holds the loads below
+//! it. Therefore the distance decides.
 
 use crate::body::ledger::is_ledger;
 use crate::convert::{to_vector, vector};
@@ -46,10 +47,11 @@ pub(crate) fn is_unjointed(world: &PhysicsWorld, handle: RigidBodyHandle) -> boo
         && !world.impulse_joints.attached_joints(handle).any(|(a, b, _, _)| joined((a, b)))
 }
 
-/// Returns whether Rapier's next step may make contacts of a body with another, of those that it lists pairs of.
-/// It keeps the pairs of a removed collider until then.
+/// Returns whether Rapier's next step may make contacts of a body with another, of those that it
+/// lists pairs of. It keeps the pairs of a removed collider until then.
 fn is_near_another(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    // contacts first: a body of a pile has some, and the distances of its other neighbours take longer to find
+    // contacts first: a body of a pile has some, and the distances of its other neighbours take
+    // longer to find
     pairs(world, handle).any(|(_, _, pair)| touches(pair))
         || pairs(world, handle).any(|(own, other, _)| may_reach(world, own, other))
 }
@@ -59,8 +61,8 @@ fn touches(pair: &ContactPair) -> bool {
     pair.manifolds().iter().any(|m| !m.points.is_empty())
 }
 
-/// Returns whether a pair that Rapier lists may touch in its next step or, at twice the present velocities, in the one after it: the reaction
-/// of a body that chatters is expected again.
+/// Returns whether a pair that Rapier lists may touch in its next step or, at twice the present
+/// velocities, in the one after it: the reaction of a body that chatters is expected again.
 pub(crate) fn may_touch(world: &PhysicsWorld, one: &Collider, two: &Collider, pair: &ContactPair) -> bool {
     touches(pair) || may_reach(world, one, two)
 }
@@ -72,7 +74,8 @@ fn may_reach(world: &PhysicsWorld, one: &Collider, two: &Collider) -> bool {
     reaches(world, one, two, STEPS_AHEAD * (linear + turn(world, one, dt) + turn(world, two, dt)))
 }
 
-/// Returns whether two colliders that come closer by `way` (m) may touch: within twice the distance at which Rapier makes contacts.
+/// Returns whether two colliders that come closer by `way` (m) may touch: within twice the distance
+/// at which Rapier makes contacts.
 fn reaches(world: &PhysicsWorld, one: &Collider, two: &Collider, way: f64) -> bool {
     let body = |c: &Collider| c.parent().and_then(|b| world.bodies.get(b));
     let sweeps = |c: &Collider| body(c).is_some_and(|b| b.is_ccd_enabled() || b.soft_ccd_prediction() > 0.0);
@@ -132,8 +135,9 @@ pub(crate) fn overlaps(world: &PhysicsWorld, handle: RigidBodyHandle, displaceme
     })
 }
 
-/// Returns an upper bound in m/s of the speed at which a body may collide within `dt` (s) with one that Rapier lists no pair
-/// with yet, if no other is faster than `fastest` (m/s); `None` if it cannot. Slow bodies among slow ones need no look-up.
+/// Returns an upper bound in m/s of the speed at which a body may collide within `dt` (s) with one
+/// that Rapier lists no pair with yet, if no other is faster than `fastest` (m/s); `None` if it
+/// cannot. Slow bodies among slow ones need no look-up.
 pub(crate) fn unlisted_collision(
     world: &PhysicsWorld,
     handle: RigidBodyHandle,

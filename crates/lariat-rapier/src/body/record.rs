@@ -19,7 +19,8 @@ pub(crate) struct BodyRecord {
     pub reaction: Vector6<f64>,
     /// The state in `f64`, valid as long as Rapier's copy is the one that was written last.
     pub exact: Option<ExactState>,
-    /// Whether Rapier has stepped it since it was attached: before, no pairs of colliders are listed.
+    /// Whether Rapier has stepped it since it was attached: before, no pairs of colliders are
+    /// listed.
     #[serde(default)]
     pub stepped: bool,
     /// Of a kinematic body, its motion in the last host step.
@@ -31,7 +32,8 @@ pub(crate) struct BodyRecord {
     /// Of a kinematic body, its place after the Rapier step in progress.
     #[serde(skip)]
     pub next_place: Option<OriginPose>,
-    /// Of a body on joints, force in N and torque in N m of its cables, smoothed over the last steps.
+    /// Of a body on joints, force in N and torque in N m of its cables, smoothed over the last
+    /// steps.
     #[serde(default = "Vector6::zeros")]
     pub pull: Vector6<f64>,
     /// Of a body on joints, what Rapier made of its predictions.
@@ -159,14 +161,16 @@ impl Records {
         &mut self.0[i]
     }
 
-    /// Returns the place of the origin of a body, in `f64` where it is known and the user has not moved the body since.
+    /// Returns the place of the origin of a body, in `f64` where it is known and the user has not
+    /// moved the body since.
     pub fn place(&self, world: &PhysicsWorld, handle: RigidBodyHandle) -> OriginPose {
         let pose = world.bodies[handle].position();
         let known = self.get(handle).and_then(|record| record.place);
         known.filter(|(rounded, _)| rounded == pose).map_or_else(|| pose::pose(world, handle), |(_, place)| place)
     }
 
-    /// Returns by how much (m) an anchor on a body was rounded in a host step: of a body that the user moves to poses.
+    /// Returns by how much (m) an anchor on a body was rounded in a host step: of a body that the
+    /// user moves to poses.
     pub fn rounding(&self, world: &PhysicsWorld, handle: RigidBodyHandle, anchor: &Vector3<f64>) -> f64 {
         let Some(body) = world.bodies.get(handle) else { return 0.0 };
         if body.body_type() != RigidBodyType::KinematicPositionBased {
@@ -179,8 +183,8 @@ impl Records {
         unit * (if position { distance } else { 0.0 } + if attitude { lever } else { 0.0 })
     }
 
-    /// Takes over where kinematic bodies went in a Rapier step: as prescribed, but for rounding. Rapier adds up the rounding of a body that it
-    /// moves by its velocity; here it ends.
+    /// Takes over where kinematic bodies went in a Rapier step: as prescribed, but for rounding.
+    /// Rapier adds up the rounding of a body that it moves by its velocity; here it ends.
     pub fn follow_kinematic(&mut self, world: &mut PhysicsWorld) {
         for record in &mut self.0 {
             record.place = None;

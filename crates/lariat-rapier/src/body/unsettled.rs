@@ -5,16 +5,20 @@
 //! |v_after - v0| > 0.05 (|p| + |m g h| + |v1 - v|)               in more than a quarter of the Rapier steps
 //! |sum ((F0 + F) h/2 - p)| > 0.05 sum |p|                        over the time
 //! ```
-//! Either of the two tells if it holds in half a second, and in the next.
-//! v0 is the velocity that Rapier was given, p = L (v1 - v - a0 h) - (m g + r) h the impulse of the cables by the predicted change of velocity, and F0 and F the
-//! forces that are read at the ends of the step before and of this one. All are spatial vectors of a body, in the norm of its kinetic energy. The first says that what
-//! joints, limits and contacts do changes from step to step, so that the cables are jerked at each; the second that forces at the ends of steps are not
-//! those that move the body. Blows, a start with a jolt and a joint that comes to its limit do not last so long. Where cables
+//! Either of the two tells if it holds in half a second, and in the next. v0 is the velocity that
+//! Rapier was given, p = L (v1 - v - a0 h) - (m g + r) h the impulse of the cables by the predicted
+//! change of velocity, and F0 and F the forces that are read at the ends of the step before and of
+//! this one. All are spatial vectors of a body, in the norm of its kinetic energy. The first says
+//! that what joints, limits and contacts do changes from step to step, so that the cables are
+//! jerked at each; the second that forces at the ends of steps are not those that move the body.
+//! Blows, a start with a jolt and a joint that comes to its limit do not last so long. Where cables
 //! pull with less than a twentieth of the body's weight nothing is told.
 //!
 //! # Validity
-//! Random chains of 2 to 14 links on one or two ropes, near a body or not, 30 to 240 Hz, both fidelities: where the force is right to 1 % and does not ripple, the first ratio is below 1e-2
-//! in nine steps of ten, in most chains below 1e-4; where it is wrong by more than that or ripples by more than 10 %, either of the two holds (tests, chains.rs).
+//! Random chains of 2 to 14 links on one or two ropes, near a body or not, 30 to 240 Hz, both
+//! fidelities: where the force is right to 1 % and does not ripple, the first ratio is below 1e-2
+//! in nine steps of ten, in most chains below 1e-4; where it is wrong by more than that or ripples
+//! by more than 10 %, either of the two holds (tests, chains.rs).
 
 use crate::body::spatial::split_spatial;
 use crate::scales::TIME_ROUNDING;
@@ -23,7 +27,8 @@ use ::nalgebra::{Matrix6, Vector6};
 use lariat_ancf::island::RigidBody;
 use serde::{Deserialize, Serialize};
 
-/// A body on joints whose motion was not the predicted one for half a second, so that forces and tensions of its cables are not to be trusted.
+/// A body on joints whose motion was not the predicted one for half a second, so that forces and
+/// tensions of its cables are not to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Unsettled {
@@ -31,7 +36,8 @@ pub struct Unsettled {
     pub time: f64,
     /// Share of its Rapier steps in which the body deviated from its prediction, 0 to 1.
     pub steps: f64,
-    /// Difference between the forces that were read and those that moved the body, as a share of these.
+    /// Difference between the forces that were read and those that moved the body, as a share of
+    /// these.
     pub force: f64,
 }
 
@@ -41,7 +47,8 @@ pub(crate) struct SettleWatch {
     time: f64,
     steps: u32,
     deviating: u32,
-    /// Sum of the norms of the impulses of cables, and sum of the differences to what is read of them.
+    /// Sum of the norms of the impulses of cables, and sum of the differences to what is read of
+    /// them.
     pull: f64,
     difference: Vector6<f64>,
     /// What was read in the last step.

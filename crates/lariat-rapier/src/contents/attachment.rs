@@ -102,10 +102,12 @@ pub struct Attachment {
     pub(crate) reading: AttachmentReading,
     #[serde(default)]
     pub(crate) watch: GapWatch,
-    /// Whether a gap has opened in a step although the body is a link of a multibody: its motion was not the predicted one.
+    /// Whether a gap has opened in a step although the body is a link of a multibody: its motion
+    /// was not the predicted one.
     #[serde(default)]
     pub(crate) lost_link: bool,
-    /// Whether it is at the last node of a cable with a reel, and how many elements had come from one at the start.
+    /// Whether it is at the last node of a cable with a reel, and how many elements had come from
+    /// one at the start.
     #[serde(default)]
     pub(crate) at_eye: bool,
     #[serde(default)]

@@ -9,8 +9,9 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{Real, Vector};
 use serde::{Deserialize, Serialize};
 
-/// A body that turns as the end of a cable runs, which feels its pull: torque or a motor on its joint hoist a load, and without one it runs free.
-/// The body turns about an axis through its centre of mass: by an impulse joint to a fixed or kinematic body, or with its other axes locked.
+/// A body that turns as the end of a cable runs, which feels its pull: torque or a motor on its
+/// joint hoist a load, and without one it runs free. The body turns about an axis through its
+/// centre of mass: by an impulse joint to a fixed or kinematic body, or with its other axes locked.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drum {
     /// The dynamic body.

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! A gap is an error of position. Once an attachment has been closed to within the limit that positions are warned at, 2e-3 of the length of the
-//! cable, a larger gap is told; so is an attachment that never closed.
+//! A gap is an error of position. Once an attachment has been closed to within the limit that
+//! positions are warned at, 2e-3 of the length of the cable, a larger gap is told; so is an
+//! attachment that never closed.
 
 use crate::scales::contents::OPEN_GAP;
 use serde::{Deserialize, Serialize};
@@ -31,8 +32,8 @@ pub(crate) struct GapWatch {
 }
 
 impl GapWatch {
-    /// Reads a gap in m at the end of a host step at a time in s, with a cable of a length in m. Returns what to tell: once, a gap that opened after
-    /// it had closed.
+    /// Reads a gap in m at the end of a host step at a time in s, with a cable of a length in m.
+    /// Returns what to tell: once, a gap that opened after it had closed.
     pub fn note(&mut self, gap: f64, time: f64, length: f64) -> Option<OpenGap> {
         if !self.closed && gap <= OPEN_GAP * length {
             *self = GapWatch { closed: true, ..GapWatch::default() };

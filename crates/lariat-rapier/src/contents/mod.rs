@@ -57,10 +57,12 @@ pub(crate) struct Slot {
     /// Keys of the colliders that it touched at the end of the last host step, and where.
     #[serde(default)]
     pub touched: Vec<(u64, f64)>,
-    /// Keys of the colliders in which it was found although it cannot touch them, or of whose restitution it was told.
+    /// Keys of the colliders in which it was found although it cannot touch them, or of whose
+    /// restitution it was told.
     #[serde(default)]
     pub ignored: Vec<u64>,
-    /// Whether neither dynamic bodies nor other cables acted on it in the last host step, so that its energy balance closes.
+    /// Whether neither dynamic bodies nor other cables acted on it in the last host step, so that
+    /// its energy balance closes.
     #[serde(skip)]
     pub alone: bool,
     /// By how much what holds it was rounded in the last host step, in m.
@@ -136,7 +138,8 @@ impl Contents {
         CableHandle(index as u32)
     }
 
-    /// Returns a key by which other cables remember a new one: by its name and place, so that it does not depend on the order of insertion.
+    /// Returns a key by which other cables remember a new one: by its name and place, so that it
+    /// does not depend on the order of insertion.
     fn free_key(&self, slot: &Slot) -> u64 {
         // FNV-1a; 0 stands for no key
         let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
@@ -184,8 +187,8 @@ impl Contents {
         }
     }
 
-    /// Sets the clocks of the cables of an island to the latest of them: one that could not step for a
-    /// while may since have been attached to others.
+    /// Sets the clocks of the cables of an island to the latest of them: one that could not step
+    /// for a while may since have been attached to others.
     pub fn align_clocks(&mut self, indices: &[usize]) -> Result<(), Error> {
         let times = indices.iter().filter_map(|&i| self.cables.get(i)).map(|slot| slot.cable.time());
         let latest = times.fold(f64::NEG_INFINITY, f64::max);

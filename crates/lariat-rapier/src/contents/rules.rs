@@ -1,4 +1,5 @@
-//! Which colliders and cables a cable touches, and with which friction and restitution: as Rapier decides it for two colliders.
+//! Which colliders and cables a cable touches, and with which friction and restitution: as Rapier
+//! decides it for two colliders.
 
 use crate::handle::CableHandle;
 use rapier::dynamics::CoefficientCombineRule;
@@ -16,14 +17,16 @@ pub struct ContactRules {
     pub collision_groups: InteractionGroups,
     /// Its solver groups. Default: all.
     pub solver_groups: InteractionGroups,
-    /// How its friction is combined with that of a collider or another cable. Default: the mean of both.
+    /// How its friction is combined with that of a collider or another cable. Default: the mean of
+    /// both.
     pub friction_combine_rule: CoefficientCombineRule,
     /// How its restitution is combined with that of a collider. Default: the mean of both.
     pub restitution_combine_rule: CoefficientCombineRule,
 }
 
 impl ContactRules {
-    /// Returns whether the cable touches a collider: both groups allow it, it is enabled and no sensor.
+    /// Returns whether the cable touches a collider: both groups allow it, it is enabled and no
+    /// sensor.
     pub(crate) fn allow(&self, collider: &Collider) -> bool {
         collider.is_enabled()
             && !collider.is_sensor()
@@ -31,7 +34,8 @@ impl ContactRules {
             && self.solver_groups.test(collider.solver_groups())
     }
 
-    /// Returns the coefficient of friction between two cables, each with its own, if both groups let them touch.
+    /// Returns the coefficient of friction between two cables, each with its own, if both groups
+    /// let them touch.
     pub(crate) fn between((one, mine): (&Self, f64), (other, theirs): (&Self, f64)) -> Option<f64> {
         let allowed = one.collision_groups.test(other.collision_groups) && one.solver_groups.test(other.solver_groups);
         let rules = (one.friction_combine_rule, other.friction_combine_rule);
@@ -56,8 +60,9 @@ fn combined(rules: (CoefficientCombineRule, CoefficientCombineRule), own: f64, o
     f64::from(CoefficientCombineRule::combine(own as Real, other, rules.0, rules.1)).max(0.0)
 }
 
-/// Decides whether a cable may touch a collider, beyond the groups; for [`CableSet::set_contact_filter`](crate::CableSet::set_contact_filter). It must
-/// depend on its arguments alone.
+/// Decides whether a cable may touch a collider, beyond the groups; for
+/// [`CableSet::set_contact_filter`](crate::CableSet::set_contact_filter). It must depend on its
+/// arguments alone.
 #[derive(Clone)]
 pub struct ContactFilter(Arc<dyn Fn(CableHandle, ColliderHandle) -> bool + Send + Sync>);
 

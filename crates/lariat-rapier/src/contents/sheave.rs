@@ -11,20 +11,24 @@ use serde::{Deserialize, Serialize};
 pub struct SheaveOptions {
     /// Inertia of the wheel over the square of its radius in kg. Default 0.
     pub inertia: f64,
-    /// Coefficient of friction of the rope on the wheel: tensions differ by up to exp(friction angle). Default 0.
+    /// Coefficient of friction of the rope on the wheel: tensions differ by up to exp(friction
+    /// angle). Default 0.
     pub friction: f64,
-    /// Angle in rad beyond that between the directions of both cables, by which the rope is wound around the wheel. Default 0.
+    /// Angle in rad beyond that between the directions of both cables, by which the rope is wound
+    /// around the wheel. Default 0.
     pub turns: f64,
     /// Constant friction in N. Default 0.
     pub brake: f64,
-    /// Radius of the wheel in m: both ends are within it of one centre, as points of one body. Default 0, where they are one point.
+    /// Radius of the wheel in m: both ends are within it of one centre, as points of one body.
+    /// Default 0, where they are one point.
     pub radius: f64,
 }
 
 /// A sheave of a [`CableSet`](crate::CableSet), and what it did so far.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sheave {
-    /// Cables, and whether they are there with their start: material runs from the first to the second at positive rates.
+    /// Cables, and whether they are there with their start: material runs from the first to the
+    /// second at positive rates.
     pub(crate) ends: [(CableHandle, bool); 2],
     /// The mechanics, with the indices of another set of cables.
     pub(crate) wheel: Wheel,
@@ -39,7 +43,8 @@ fn end(start: bool) -> At {
 }
 
 impl Sheave {
-    /// Returns the cables and their ends there; material runs from the first to the second at positive rates.
+    /// Returns the cables and their ends there; material runs from the first to the second at
+    /// positive rates.
     pub fn ends(&self) -> [(CableHandle, At); 2] {
         self.ends.map(|(cable, start)| (cable, end(start)))
     }
@@ -59,7 +64,8 @@ impl Sheave {
         self.wheel.lost
     }
 
-    /// Returns the friction in N in the last step: what the pull on one side exceeds that on the other by, but for inertia.
+    /// Returns the friction in N in the last step: what the pull on one side exceeds that on the
+    /// other by, but for inertia.
     pub fn force(&self) -> f64 {
         self.wheel.force
     }

@@ -1,13 +1,16 @@
 //! Cables that break where they are overloaded.
 //!
 //! # Validity
-//! Broken at the end of a host step, by the largest load of its integration steps. Until then the whole cable goes on: bodies that it holds get at most the impulse of its
-//! tension over what is left of the host step more.
+//! Broken at the end of a host step, by the largest load of its integration steps. Until then the
+//! whole cable goes on: bodies that it holds get at most the impulse of its tension over what is
+//! left of the host step more.
 //!
 //! # Alternatives considered
-//! Parts that go on from the time of the break. Rapier moves a body with one velocity in its step, so that step would have to end there: the prediction of an island that
-//! breaks would be reverted, as that of a mechanism that turns is, and made anew up to the time of the break, and islands, attachments and contacts found anew before the rest. All islands of
-//! the world would take the additional Rapier step, and a rope that frays would divide a host step as often as it breaks.
+//! Parts that go on from the time of the break. Rapier moves a body with one velocity in its step,
+//! so that step would have to end there: the prediction of an island that breaks would be reverted,
+//! as that of a mechanism that turns is, and made anew up to the time of the break, and islands,
+//! attachments and contacts found anew before the rest. All islands of the world would take the
+//! additional Rapier step, and a rope that frays would divide a host step as often as it breaks.
 
 use super::part::part;
 use crate::contents::Contents;

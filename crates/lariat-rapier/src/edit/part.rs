@@ -8,8 +8,8 @@ use crate::handle::CableHandle;
 use crate::scales::edit::AT_CUT;
 use lariat_ancf::{Break, Cable};
 
-/// Makes two cables of one, if `how` does; `cable` keeps the part before the break. Returns the handle of
-/// the other part.
+/// Makes two cables of one, if `how` does; `cable` keeps the part before the break. Returns the
+/// handle of the other part.
 pub(crate) fn part(
     contents: &mut Contents,
     cable: CableHandle,

@@ -2,15 +2,15 @@
 //!
 //! # Scheme
 //! A world of Rapier's has no identity, and a handle of one world may name a body of another.
-//! Therefore a set with attachments adds a mark to its world in the next step: a fixed, disabled body
-//! without colliders, whose `user_data` is a hash of attachments and bodies. The mark is part of the
-//! world's state and of the set's, so that snapshots of both fit together. It is removed with the
-//! last attachment.
+//! Therefore a set with attachments adds a mark to its world in the next step: a fixed, disabled
+//! body without colliders, whose `user_data` is a hash of attachments and bodies. The mark is part
+//! of the world's state and of the set's, so that snapshots of both fit together. It is removed
+//! with the last attachment.
 //!
 //! # Validity
 //! Before its first step a set knows its world by its bodies alone: a world in which they exist
-//! becomes its own. Two worlds that were equal to the bit when they were marked, with equal sets, are
-//! not told apart.
+//! becomes its own. Two worlds that were equal to the bit when they were marked, with equal sets,
+//! are not told apart.
 //!
 //! # Alternatives considered
 //! A number that is given out once: the state of two equal runs would differ.
@@ -22,8 +22,8 @@ use rapier::dynamics::RigidBodyBuilder;
 use rapier::pipeline::PhysicsWorld;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Returns whether a world may be the one of the attachments: it carries their mark, or there is none
-/// yet.
+/// Returns whether a world may be the one of the attachments: it carries their mark, or there is
+/// none yet.
 pub(crate) fn is_own(contents: &Contents, world: &PhysicsWorld) -> bool {
     contents.mark.is_none_or(|mark| mark.is_in(world))
 }
@@ -49,8 +49,8 @@ pub(crate) fn check(contents: &mut Contents, world: &mut PhysicsWorld) -> Result
     Ok(())
 }
 
-/// Returns the generation that the next body of a world gets. Each removal raises it, so a body that
-/// was removed from this world is older.
+/// Returns the generation that the next body of a world gets. Each removal raises it, so a body
+/// that was removed from this world is older.
 fn next_generation(world: &PhysicsWorld) -> u32 {
     world.bodies.clone().insert(RigidBodyBuilder::fixed()).into_raw_parts().1
 }

@@ -24,8 +24,8 @@ use rapier::pipeline::PhysicsWorld;
 enum Role {
     /// It is integrated together with the cable.
     Integrated,
-    /// Its motion is prescribed, and rotates: the node and the tangent of a clamp are moved as those of an
-    /// integrated body, along the arc.
+    /// Its motion is prescribed, and rotates: the node and the tangent of a clamp are moved as
+    /// those of an integrated body, along the arc.
     Driven,
     /// Its motion is prescribed: so is the position of the node.
     Support,
@@ -71,8 +71,9 @@ pub(crate) struct Islands {
 }
 
 impl Islands {
-    /// Finds the islands of a set, unless nothing changed since they were last found; `touching` are cables and the integrated bodies that they can
-    /// touch, `pairs` cables that can touch each other.
+    /// Finds the islands of a set, unless nothing changed since they were last found; `touching`
+    /// are cables and the integrated bodies that they can touch, `pairs` cables that can touch each
+    /// other.
     pub fn update(
         &mut self,
         contents: &mut Contents,
@@ -127,7 +128,8 @@ fn attached_nodes(contents: &Contents, world: &PhysicsWorld) -> impl Iterator<It
     contents.attachments.iter().map(|(i, a)| attached_node(contents, world, i, a))
 }
 
-/// Returns the integrated bodies that share a mechanism with one before them, each with the first of it.
+/// Returns the integrated bodies that share a mechanism with one before them, each with the first
+/// of it.
 fn jointed_bodies(
     world: &PhysicsWorld,
     nodes: &[AttachedNode],

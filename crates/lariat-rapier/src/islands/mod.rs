@@ -1,5 +1,5 @@
-//! Islands: sets of cables, bodies and junctions that are connected by attachments, by contacts that are near,
-//! or by the joints of a mechanism.
+//! Islands: sets of cables, bodies and junctions that are connected by attachments, by contacts
+//! that are near, or by the joints of a mechanism.
 //!
 //! Order within and among islands follows the names of the cables and the positions at which they
 //! were inserted, not their handles: a run does not depend on the order of insertion, to the bit.

@@ -5,7 +5,8 @@
 //! P = 1 - M^-1 G^T (G M^-1 G^T)^-1 G      a_c = -M^-1 G^T (G M^-1 G^T)^-1 G' v
 //! ```
 //! Each row of G is a locked axis or a limit. A limit is given up if the accelerations by all loads
-//! move the joint away from it. a_c keeps the velocities v on the motions that are free while G turns with the bodies, at the rate G'.
+//! move the joint away from it. a_c keeps the velocities v on the motions that are free while G
+//! turns with the bodies, at the rate G'.
 
 use crate::scales::mechanism::REGULARISATION;
 use ::nalgebra::{DMatrix, DVector};
@@ -32,8 +33,8 @@ pub(super) struct Constraints {
 }
 
 impl Constraints {
-    /// Returns `P columns`, `P free` and a_c, with the limits that are active under the accelerations
-    /// `all`.
+    /// Returns `P columns`, `P free` and a_c, with the limits that are active under the
+    /// accelerations `all`.
     pub fn project(
         mut self,
         columns: &DMatrix<f64>,

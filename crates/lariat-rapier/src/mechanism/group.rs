@@ -7,13 +7,15 @@
 //! impulses implied by velocity residuals:    p = D W D dv,   D = (W + c S)^-1
 //! ```
 //! W is the mobility of the bodies in their mechanism, S that of each alone, a0 their accelerations
-//! by the loads on the other bodies, less e S g; all with six rows per body. The term e S makes a body as good
-//! as immovable along what its joints hold, without a singular matrix; g are the loads on the bodies in the last step, their
-//! cables' included, so that along what joints hold only a change of load moves them: L x'' = f gives (W + e S) f, less e S g.
+//! by the loads on the other bodies, less e S g; all with six rows per body. The term e S makes a
+//! body as good as immovable along what its joints hold, without a singular matrix; g are the loads
+//! on the bodies in the last step, their cables' included, so that along what joints hold only a
+//! change of load moves them: L x'' = f gives (W + e S) f, less e S g.
 //!
-//! Without g the prediction yields by e S f h^2/2 in each step, joints take it back, and the cable feels a jolt at each step: a
-//! rope of T = 50 ms on seven welded links read 2 % too little, steadily, one on thirteen 13 %, with bodies that stood still. The
-//! reaction estimate is no part of g: along what joints hold, nothing else takes back what it learnt.
+//! Without g the prediction yields by e S f h^2/2 in each step, joints take it back, and the cable
+//! feels a jolt at each step: a rope of T = 50 ms on seven welded links read 2 % too little,
+//! steadily, one on thirteen 13 %, with bodies that stood still. The reaction estimate is no part
+//! of g: along what joints hold, nothing else takes back what it learnt.
 //!
 //! # Validity
 //! With c = e, near a singular configuration (a straight arm with free elbows moves along itself
@@ -105,7 +107,8 @@ impl Group {
         matrix.fixed_view::<6, 6>(6 * a, 6 * b).into_owned()
     }
 
-    /// Gives the bodies of all members the inertia and the loads of what they carry, and adds what couples them.
+    /// Gives the bodies of all members the inertia and the loads of what they carry, and adds what
+    /// couples them.
     pub fn load(&self, bodies: &mut [RigidBody], coupled: &mut Vec<CoupledInertia>) {
         let loads = &self.inertia * &self.acceleration;
         for (a, &m) in self.members.iter().enumerate() {
@@ -143,8 +146,8 @@ impl Group {
         impulses.dot(&(&self.mobility * impulses)) + JOINT_COMPLIANCE * impulses.dot(&(&self.own * impulses))
     }
 
-    /// Returns the impulses implied by velocity residuals. `isolated`: the mechanism touches no other
-    /// body.
+    /// Returns the impulses implied by velocity residuals. `isolated`: the mechanism touches no
+    /// other body.
     pub fn implied_impulses(&self, residuals: &DVector<f64>, isolated: bool) -> DVector<f64> {
         let compliance = if isolated { ISOLATED_COMPLIANCE } else { JOINT_COMPLIANCE };
         match (&self.mobility + &self.own * compliance).try_inverse() {

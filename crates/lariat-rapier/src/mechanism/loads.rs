@@ -10,7 +10,8 @@
 //! joints then have nothing to do, for any number of iterations.
 //!
 //! # Validity
-//! The others are near no body from outside. Otherwise their loads are part of the reaction estimate.
+//! The others are near no body from outside. Otherwise their loads are part of the reaction
+//! estimate.
 //!
 //! Measured: an arm of three links of 1 kg, its tip on a soft rope, host steps of 1/30 s, one
 //! iteration (`lariat stability --case arm`). The rope carries 14.715 N of 14.715; without these
@@ -47,7 +48,8 @@ pub(crate) struct CarriedLoads {
     pub of_body: Vector6<f64>,
     /// Whether the loads are included and the mechanism touches no other body.
     pub isolated: bool,
-    /// Whether joints of a multibody are at their limits, which Rapier's solver keeps in its own step.
+    /// Whether joints of a multibody are at their limits, which Rapier's solver keeps in its own
+    /// step.
     pub limited: bool,
 }
 

@@ -6,10 +6,11 @@
 //! ```
 //! J is a link's Jacobian (velocity of its centre of mass before angular velocity) and M the mass
 //! matrix, both Rapier's; f_i are the loads on the other links, D the damping that Rapier gives the
-//! joints (0.1 N m s about axes unless the user changes it) and u the generalised velocity. Each active limit is a unit vector
-//! in G ([`super::constraints`]). All are those after half a step at the present u (a clone of the multibody is moved there), which makes the
-//! prediction one of second order; what u gains from J' u is Rapier's to do, so a0 alone contains it. Limits count only where the loads on the other links are
-//! included.
+//! joints (0.1 N m s about axes unless the user changes it) and u the generalised velocity. Each
+//! active limit is a unit vector in G ([`super::constraints`]). All are those after half a step at
+//! the present u (a clone of the multibody is moved there), which makes the prediction one of
+//! second order; what u gains from J' u is Rapier's to do, so a0 alone contains it. Limits count
+//! only where the loads on the other links are included.
 //!
 //! Rapier overwrites the velocities of links by those of the generalised velocity, so a change must
 //! be made there; and it leaves in a link the velocity of the last substep but one.
@@ -136,7 +137,8 @@ fn inertial_force(body: &RigidBody, acceleration: &Vector6<f64>) -> Vector6<f64>
     stack_spatial(&(linear * mass), &(inertia * angular))
 }
 
-/// Returns a multibody as it is after half a step of its present motion: with the Jacobians and the mass matrix of then.
+/// Returns a multibody as it is after half a step of its present motion: with the Jacobians and the
+/// mass matrix of then.
 fn halfway(world: &PhysicsWorld, multibody: &Multibody, request: &Request) -> Multibody {
     let mut halfway = multibody.clone();
     let turns: Vec<Real> = multibody.generalized_velocity().iter().map(|u| u * request.half_step as Real).collect();
@@ -148,7 +150,8 @@ fn halfway(world: &PhysicsWorld, multibody: &Multibody, request: &Request) -> Mu
     halfway
 }
 
-/// Returns the limits at which the joints of a multibody are, by degree of freedom; `None` for a joint that is at both.
+/// Returns the limits at which the joints of a multibody are, by degree of freedom; `None` for a
+/// joint that is at both.
 fn active_limits(multibody: &Multibody) -> Vec<(usize, Option<Limit>)> {
     let velocity = multibody.generalized_velocity();
     let mut active = Vec::new();

@@ -36,8 +36,8 @@ impl Mechanism {
         matches!(self.before, Velocities::Generalised(_))
     }
 
-    /// Returns the change of velocity of a member of the island per impulse on the body; `None` for one that is not of
-    /// the mechanism.
+    /// Returns the change of velocity of a member of the island per impulse on the body; `None` for
+    /// one that is not of the mechanism.
     pub fn mobility_of(&self, member: RigidBodyHandle) -> Option<Matrix6<f64>> {
         self.mobilities.iter().find(|(body, _)| *body == member).map(|(_, mobility)| *mobility)
     }

@@ -10,8 +10,8 @@ pub(crate) struct Request<'a> {
     pub half_step: f64,
     /// Rapier's substep in s.
     pub substep: f64,
-    /// The bodies of its island, itself included, with force in N and torque in N m on each over the step, those of its cables included:
-    /// they decide which limits are active.
+    /// The bodies of its island, itself included, with force in N and torque in N m on each over
+    /// the step, those of its cables included: they decide which limits are active.
     pub members: &'a [(RigidBodyHandle, Vector6<f64>)],
     /// Tells whether a cable is attached to a body.
     pub is_attached: &'a dyn Fn(RigidBodyHandle) -> bool,

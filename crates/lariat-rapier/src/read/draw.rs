@@ -1,4 +1,5 @@
-//! Drawing of cables through Rapier's debug renderer, coloured by tension, and of the forces of their contacts.
+//! Drawing of cables through Rapier's debug renderer, coloured by tension, and of the forces of
+//! their contacts.
 
 use crate::convert::to_vector;
 use crate::scales::read::{DRAWN_LINES, FORCE_LENGTH};

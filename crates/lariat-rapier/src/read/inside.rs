@@ -2,9 +2,11 @@
 //!
 //! # Validity
 //!
-//! Tested are the line through five points of each element, which is inside where it is deeper than half the thickness of the cable and a
-//! millimetre, and lines from one point outside to the next: such a line runs through a collider, however thin, that it enters by one
-//! face and leaves by an opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a collider.
+//! Tested are the line through five points of each element, which is inside where it is deeper than
+//! half the thickness of the cable and a millimetre, and lines from one point outside to the next:
+//! such a line runs through a collider, however thin, that it enters by one face and leaves by an
+//! opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a
+//! collider.
 
 use crate::convert::{to_vector, vector};
 use crate::scales::read::{DEEPER, OPPOSITE, POINTS, TOUCHING};
@@ -13,7 +15,8 @@ use nalgebra::Vector3;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, Ray};
 use rapier::math::Real;
 
-/// Returns arc length and depth in m of the place where a cable is deepest in a collider, if it runs through it.
+/// Returns arc length and depth in m of the place where a cable is deepest in a collider, if it
+/// runs through it.
 pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> {
     let nodes = (0..cable.nodes()).map(|node| cable.node_position(node));
     let mut around = Aabb::new_invalid();
@@ -55,8 +58,9 @@ pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> 
     deepest
 }
 
-/// Returns where on a line between two points outside a collider, from 0 to 1, it is in the collider, and how deep in m, if that is deeper than
-/// `touching`; or half of the length inside, if the line enters by one face and leaves by an opposite one.
+/// Returns where on a line between two points outside a collider, from 0 to 1, it is in the
+/// collider, and how deep in m, if that is deeper than `touching`; or half of the length inside, if
+/// the line enters by one face and leaves by an opposite one.
 fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>, touching: f64) -> Option<(f64, f64)> {
     let cast = |origin: &Vector3<f64>, end: &Vector3<f64>| {
         let ray = Ray::new(to_vector(origin), to_vector(&(end - origin)));

@@ -1,7 +1,8 @@
 //! Warnings about cables in their world, beside those that a cable has by itself.
 //!
-//! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of [`lariat_ancf::warning`] is an
-//! [`Event::Warning`] once, after the host step in which it came up. [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time.
+//! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of
+//! [`lariat_ancf::warning`] is an [`Event::Warning`] once, after the host step in which it came up.
+//! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time.
 
 use crate::body::unsettled::Unsettled;
 use crate::contents::Contents;
@@ -47,7 +48,8 @@ pub enum Warning {
         collider: ColliderHandle,
         /// Arc length of the deepest place in m.
         arc_length: f64,
-        /// Its distance from the surface in m; where no point that is tested is inside, half the length inside.
+        /// Its distance from the surface in m; where no point that is tested is inside, half the
+        /// length inside.
         depth: f64,
     },
     /// An attachment whose two sides are apart.
@@ -90,7 +92,8 @@ pub enum Warning {
         /// Difference of the velocities in m/s.
         difference: f64,
     },
-    /// A cable that touches bodies would bounce off a collider with more of its velocity than it can.
+    /// A cable that touches bodies would bounce off a collider with more of its velocity than it
+    /// can.
     #[error(
         "cable {name:?}: with a collider that it may touch it has a coefficient of restitution of {restitution}, and impacts of cables have at \
          most 15/17: it leaves with less"
@@ -179,8 +182,8 @@ fn of_attachment(
     (difference > JOLT + rounding).then_some(Warning::VelocityJump { attachment, name, difference })
 }
 
-/// Reads the cables at the end of a host step, and tells them first whether nothing else acts on them and by how much what holds them was rounded;
-/// what is new is an event.
+/// Reads the cables at the end of a host step, and tells them first whether nothing else acts on
+/// them and by how much what holds them was rounded; what is new is an event.
 pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
     let dt = f64::from(world.integration_parameters.dt);
     let Contents { cables, attachments, junctions, sheaves, drums, records, .. } = contents;

@@ -13,8 +13,8 @@ use rapier::pipeline::PhysicsWorld;
 impl CableSet {
     /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
     /// is inserted there if there is none. The two points may be up to 1e-3 m apart, or as far as
-    /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and body
-    /// have now.
+    /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and
+    /// body have now.
     ///
     /// # Errors
     /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],

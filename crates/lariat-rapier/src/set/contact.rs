@@ -11,18 +11,20 @@ use lariat_ancf::coupling::Coupling;
 use rapier::geometry::ColliderHandle;
 
 impl CableSet {
-    /// Lets a cable touch the colliders of the world, and other cables and itself if the contact says so, or no longer with `None`. Needs the method
-    /// `discrete-gradient`, which a cable gets if nobody chose its integrator. The cable's own friction is combined
-    /// with that of a collider as [`set_contact_rules`](Self::set_contact_rules) say. So is its restitution.
+    /// Lets a cable touch the colliders of the world, and other cables and itself if the contact
+    /// says so, or no longer with `None`. Needs the method `discrete-gradient`, which a cable gets
+    /// if nobody chose its integrator. The cable's own friction is combined with that of a collider
+    /// as [`set_contact_rules`](Self::set_contact_rules) say. So is its restitution.
     ///
     /// # Errors
-    /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a diameter or a radius, and
-    /// for another method.
+    /// [`Error::NoCable`]; [`Error::Cable`] for numbers out of range, for a cable without a
+    /// diameter or a radius, and for another method.
     pub fn set_contact(&mut self, cable: CableHandle, contact: impl Into<Option<Contact>>) -> Result<(), Error> {
         Ok(self.contents.cable_mut(cable)?.set_contact(contact)?)
     }
 
-    /// Sets the groups of a cable, and how its friction and restitution are combined, for its contacts with colliders and other cables.
+    /// Sets the groups of a cable, and how its friction and restitution are combined, for its
+    /// contacts with colliders and other cables.
     ///
     /// # Errors
     /// [`Error::NoCable`].
@@ -32,8 +34,8 @@ impl CableSet {
         Ok(())
     }
 
-    /// Sets a function that decides which colliders cables may touch, beyond their groups; it is no part of a
-    /// snapshot.
+    /// Sets a function that decides which colliders cables may touch, beyond their groups; it is no
+    /// part of a snapshot.
     pub fn set_contact_filter(&mut self, filter: Option<ContactFilter>) {
         self.stepper.finder.filter = filter;
         self.contents.cables.values_mut().for_each(|slot| slot.modified = true);
@@ -47,8 +49,8 @@ impl CableSet {
         Ok(self.get(cable)?.contacts().map(|touch| (collider(touch.obstacle), touch)))
     }
 
-    /// Returns the contacts of a cable with others and with itself at the end of the last step, each with the other cable. Needs
-    /// [`Contact::with_cables`].
+    /// Returns the contacts of a cable with others and with itself at the end of the last step,
+    /// each with the other cable. Needs [`Contact::with_cables`].
     ///
     /// # Errors
     /// [`Error::NoCable`].

@@ -37,16 +37,18 @@ use serde::{Deserialize, Serialize};
 /// The cables of a world, attached to its bodies and to each other.
 ///
 /// # Limits
-/// - Cables touch colliders and each other only if they are told to ([`set_contact`](Self::set_contact)).
+/// - Cables touch colliders and each other only if they are told to
+///   ([`set_contact`](Self::set_contact)).
 /// - A cable has a fixed natural length, but for [`cut`](Self::cut) and a reel
-///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)). On a dynamic
-///   body its stock rides along as a point mass at the eye, beside the mass that Rapier knows: contacts of the body see that alone.
+///   ([`Cable::add_reel`](lariat_ancf::Cable::add_reel) by [`get_mut`](Self::get_mut)). On a
+///   dynamic body its stock rides along as a point mass at the eye, beside the mass that Rapier
+///   knows: contacts of the body see that alone.
 /// - All cables of a set share one number of Rapier steps per host step ([`Settings`]), which is
 ///   also that of the whole world: a pile of bodies costs as many Rapier steps as the cables need.
 /// - The loads on the bodies of a mechanism (a multibody, or bodies joined by impulse joints) are
-///   predicted only if none of those without a cable is near a body from outside. Otherwise they are
-///   estimated from step to step; on chains of impulse joints forces may ripple by some per cent
-///   then. Chains of impulse joints count up to 24 bodies.
+///   predicted only if none of those without a cable is near a body from outside. Otherwise they
+///   are estimated from step to step; on chains of impulse joints forces may ripple by some per
+///   cent then. Chains of impulse joints count up to 24 bodies.
 /// - Cables that cannot step stand still with the bodies attached to them, and block others that
 ///   touch them; all else goes on.
 ///
@@ -71,11 +73,13 @@ impl CableSet {
 
     /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's
     /// default, it follows the world's until the user sets it; else it keeps its own. If nobody
-    /// chose its integrator, it takes that of [`Settings::fidelity`]; its [rule](Cable::rule) stays, so a cable for which
-    /// [`Fidelity::Game`](lariat_ancf::Fidelity::Game) is written when it is built costs less.
+    /// chose its integrator, it takes that of [`Settings::fidelity`]; its [rule](Cable::rule)
+    /// stays, so a cable for which [`Fidelity::Game`](lariat_ancf::Fidelity::Game) is written when
+    /// it is built costs less.
     pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
         if cable.has_default_integrator() {
-            // the integrator of a fidelity fits every cable, but one with contact keeps the one that can step it
+            // the integrator of a fidelity fits every cable, but one with contact keeps the one
+            // that can step it
             let _ = cable.set_integrator(cable.integrator_for(self.settings.fidelity));
         }
         if self.settings.watch && !cable.is_watched() {
@@ -84,8 +88,8 @@ impl CableSet {
         self.contents.insert(cable)
     }
 
-    /// Adds the usual rope between two points of the world, held there by bodies or by the world: it is
-    /// straight, or sags by its slack.
+    /// Adds the usual rope between two points of the world, held there by bodies or by the world:
+    /// it is straight, or sags by its slack.
     ///
     /// ```
     /// use lariat_rapier::{CableSet, Rope};
@@ -131,11 +135,11 @@ impl CableSet {
         Ok(RopeHandles { cable, start, end })
     }
 
-    /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared with the load after each
-    /// integration step: it breaks at the end of the host step;
-    /// `None` and it does not break. It breaks at the inner node nearest to its largest load. The
-    /// event is [`Event::Broken`](crate::Event::Broken); the parts have the same strength. A sleeping cable sleeps on unless
-    /// it breaks.
+    /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared with the load after
+    /// each integration step: it breaks at the end of the host step; `None` and it does not break.
+    /// It breaks at the inner node nearest to its largest load. The event is
+    /// [`Event::Broken`](crate::Event::Broken); the parts have the same strength. A sleeping cable
+    /// sleeps on unless it breaks.
     ///
     /// # Errors
     /// [`Error::NoCable`], or [`Error::Cable`] for a limit that is not positive or a cable of one
@@ -204,10 +208,10 @@ impl CableSet {
     /// cables with each other takes no part.
     ///
     /// # Errors
-    /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has none;
-    /// [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and contacts;
-    /// [`Error::CableTouchesInStatics`] for a cable with contact that would run through a collider;
-    /// [`Error::OtherWorld`]. Set and world are then as before.
+    /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has
+    /// none; [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and
+    /// contacts; [`Error::CableTouchesInStatics`] for a cable with contact that would run through a
+    /// collider; [`Error::OtherWorld`]. Set and world are then as before.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;
         statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, EquilibriumOptions::default())

@@ -51,14 +51,15 @@ impl CableSet {
     }
 
     /// Returns the warnings about all cables: those that the cables have
-    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, restitution beyond what impacts of cables have, gaps, and attachments
-    /// that start with a shock. Worth a look when a world has been built.
+    /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, restitution
+    /// beyond what impacts of cables have, gaps, and attachments that start with a shock. Worth a
+    /// look when a world has been built.
     pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
         warnings::all(&self.contents, world)
     }
 
-    /// Returns the gap of an attachment if it is longer than 2e-3 of the length of its cable: the largest since the two sides met, or if they did not,
-    /// the least.
+    /// Returns the gap of an attachment if it is longer than 2e-3 of the length of its cable: the
+    /// largest since the two sides met, or if they did not, the least.
     ///
     /// # Errors
     /// [`Error::NoAttachment`].
@@ -66,8 +67,8 @@ impl CableSet {
         warnings::open_gap(&self.contents, attachment)
     }
 
-    /// Returns the worst half second in which the body of an attachment, one that joints hold, did not move as predicted, if there was one: its cables'
-    /// forces are then not to be trusted.
+    /// Returns the worst half second in which the body of an attachment, one that joints hold, did
+    /// not move as predicted, if there was one: its cables' forces are then not to be trusted.
     ///
     /// # Errors
     /// [`Error::NoAttachment`].
@@ -75,7 +76,8 @@ impl CableSet {
         warnings::unsettled(&self.contents, attachment)
     }
 
-    /// Draws all cables and the forces of their contacts with Rapier's debug renderer, as lines of a body with an invalid handle.
+    /// Draws all cables and the forces of their contacts with Rapier's debug renderer, as lines of
+    /// a body with an invalid handle.
     #[cfg(feature = "debug-render")]
     pub fn draw(&self, backend: &mut impl DebugRenderBackend, style: &DrawStyle) {
         draw::draw(self.iter().map(|(_, cable)| cable), backend, style);

@@ -6,7 +6,8 @@ use lariat_ancf::{At, Cable, Damping, Fidelity, Point, Section, Vector3};
 use rapier::math::Vector;
 
 /// What a rope is made of, how slack it is, and what it bears: the description of the usual rope,
-/// with bending stiffness and a damping ratio of [`ROPE_DAMPING`]. See [`CableSet::add_rope`](crate::CableSet::add_rope).
+/// with bending stiffness and a damping ratio of [`ROPE_DAMPING`]. See
+/// [`CableSet::add_rope`](crate::CableSet::add_rope).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rope {
     /// Name in errors and reports. Default "rope".
@@ -81,7 +82,8 @@ impl Rope {
         (to - from).norm() * (1.0 + self.slack)
     }
 
-    /// Builds its cable, fixed where no body holds it; `fidelity` is that of the set, whose rule it has if it has no fidelity of its own.
+    /// Builds its cable, fixed where no body holds it; `fidelity` is that of the set, whose rule it
+    /// has if it has no fidelity of its own.
     pub(crate) fn build<B>(
         &self,
         [from, to]: &[RopeEnd<B>; 2],

@@ -13,9 +13,9 @@ impl CableSet {
     /// Rapier steps as the [`Settings`](crate::Settings) say.
     ///
     /// # Errors
-    /// [`Error::StepRefused`] if cables cannot step. They and their bodies are then as after the last
-    /// Rapier step that they could make, and all other cables and bodies have advanced; every such
-    /// island is in [`failures`](Self::failures). With any other error nothing has advanced.
+    /// [`Error::StepRefused`] if cables cannot step. They and their bodies are then as after the
+    /// last Rapier step that they could make, and all other cables and bodies have advanced; every
+    /// such island is in [`failures`](Self::failures). With any other error nothing has advanced.
     pub fn step(&mut self, world: &mut PhysicsWorld) -> Result<(), Error> {
         self.step_with_events(world, &(), &())
     }

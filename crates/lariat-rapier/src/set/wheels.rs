@@ -10,14 +10,17 @@ use lariat_ancf::{At, Reel};
 use rapier::dynamics::RigidBodySet;
 
 impl CableSet {
-    /// Winds an end of a cable on a drum: its rate is the spin of the body relative to the one that holds that end, or to the world. `stock` and
-    /// `inertia` of the reel are what the drum carries beside the body's own. Needs the integrator `discrete-gradient`. The drum ends with its
+    /// Winds an end of a cable on a drum: its rate is the spin of the body relative to the one that
+    /// holds that end, or to the world. `stock` and `inertia` of the reel are what the drum carries
+    /// beside the body's own. Needs the integrator `discrete-gradient`. The drum ends with its
     /// body, and by [`remove_drum`](Self::remove_drum).
     ///
     /// # Errors
-    /// [`Error::NoCable`]; [`Error::NoBody`]; [`Error::DrumBody`] for one that is not dynamic; [`Error::Cable`] for a point that is not an end, an end
-    /// with a reel, a reel with rates or a largest force of its own, or an effect that does not go with one. What makes no drum beyond that is
-    /// an error of the next step, as is a drum joined to a dynamic body ([`Error::DrumJoined`]).
+    /// [`Error::NoCable`]; [`Error::NoBody`]; [`Error::DrumBody`] for one that is not dynamic;
+    /// [`Error::Cable`] for a point that is not an end, an end with a reel, a reel with rates or a
+    /// largest force of its own, or an effect that does not go with one. What makes no drum beyond
+    /// that is an error of the next step, as is a drum joined to a dynamic body
+    /// ([`Error::DrumJoined`]).
     pub fn add_drum(
         &mut self,
         bodies: &RigidBodySet,
@@ -37,7 +40,8 @@ impl CableSet {
         Ok(())
     }
 
-    /// Ends the drum at an end of a cable: what is out stays. Returns it, or `None` if there is none.
+    /// Ends the drum at an end of a cable: what is out stays. Returns it, or `None` if there is
+    /// none.
     ///
     /// # Errors
     /// [`Error::NoCable`].
@@ -58,12 +62,14 @@ impl CableSet {
         self.contents.drums.iter().map(|wound| (wound.cable, wound.at(), &wound.drum))
     }
 
-    /// Lets a cable run into another over a sheave: `from` and `to` are ends of cables that are attached at one point, to a body or to the
-    /// world. Both need the integrator `discrete-gradient`, and one mass per length. The sheave ends with one of the attachments.
+    /// Lets a cable run into another over a sheave: `from` and `to` are ends of cables that are
+    /// attached at one point, to a body or to the world. Both need the integrator
+    /// `discrete-gradient`, and one mass per length. The sheave ends with one of the attachments.
     ///
     /// # Errors
-    /// [`Error::NoCable`]; [`Error::Cable`] for a point that is not an end, an end with a reel, or an effect that does not go with one. What
-    /// makes no sheave beyond that is an error of the next step.
+    /// [`Error::NoCable`]; [`Error::Cable`] for a point that is not an end, an end with a reel, or
+    /// an effect that does not go with one. What makes no sheave beyond that is an error of the
+    /// next step.
     pub fn add_sheave(
         &mut self,
         from: (CableHandle, impl Into<At>),

@@ -50,7 +50,8 @@ use crate::reel::{Feed, Reel, Reels};
 use crate::system::Source;
 
 impl Snapshot {
-    /// Returns the number of nodes that the state must have: its own with a reel, else that of the cable.
+    /// Returns the number of nodes that the state must have: its own with a reel, else that of the
+    /// cable.
     pub(super) fn nodes_with_reel(&self, reel: bool, nodes: usize) -> usize {
         let wound = self.windings.iter().any(Option::is_some);
         if reel && wound { (self.state.q.len() / 6).max(2) } else { nodes }
@@ -68,14 +69,16 @@ impl Snapshot {
 }
 
 impl Cable {
-    /// Puts a reel at an end of the cable: from the next step on, it pays cable out and takes it in through that node, the
-    /// eye. Hold it by a support or an attachment.
+    /// Puts a reel at an end of the cable: from the next step on, it pays cable out and takes it in
+    /// through that node, the eye. Hold it by a support or an attachment.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for another place than an end, for a second reel there, or
-    /// for two reels on one element, [`Error::ExplicitReel`] for an explicit integrator, [`Error::ReelMethod`] for a largest force under
-    /// another integrator than the discrete gradient, and for one without an estimate of its error, [`Error::NotWithReel`] for effects and point loads that the
-    /// flowing element does not carry. The cable is then as before.
+    /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for another place
+    /// than an end, for a second reel there, or for two reels on one element,
+    /// [`Error::ExplicitReel`] for an explicit integrator, [`Error::ReelMethod`] for a largest
+    /// force under another integrator than the discrete gradient, and for one without an estimate
+    /// of its error, [`Error::NotWithReel`] for effects and point loads that the flowing element
+    /// does not carry. The cable is then as before.
     pub fn add_reel(&mut self, at: impl Into<At>, reel: Reel) -> Result<(), Error> {
         reel.check().map_err(|e| e.of_cable(self.name()))?;
         let refused = |reason| Error::ReelPlace { cable: self.name().to_string(), reason };
@@ -106,11 +109,13 @@ impl Cable {
         Ok(())
     }
 
-    /// Changes what the reel at an end does from now on. The rate follows with the acceleration of the reel.
+    /// Changes what the reel at an end does from now on. The rate follows with the acceleration of
+    /// the reel.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for an end without a reel, [`Error::ReelMethod`] for a
-    /// largest force under another integrator than the discrete gradient.
+    /// [`Error::InvalidValue`] for numbers out of range, [`Error::ReelPlace`] for an end without a
+    /// reel, [`Error::ReelMethod`] for a largest force under another integrator than the discrete
+    /// gradient.
     pub fn set_reel(&mut self, at: impl Into<At>, reel: Reel) -> Result<(), Error> {
         reel.check().map_err(|e| e.of_cable(self.name()))?;
         let Some(side) = self.side(at.into()).filter(|&side| self.model.reels.get(side).is_some()) else {
@@ -127,8 +132,8 @@ impl Cable {
         outcome
     }
 
-    /// Changes the rate of the reel at an end in m/s: positive pays out. It is reached at the end of the next step, linearly, if the acceleration of the reel
-    /// lets it.
+    /// Changes the rate of the reel at an end in m/s: positive pays out. It is reached at the end
+    /// of the next step, linearly, if the acceleration of the reel lets it.
     ///
     /// # Errors
     /// As [`set_reel`](Self::set_reel).
@@ -138,7 +143,8 @@ impl Cable {
         self.set_reel(at, Reel { rate: Reel::with_rate(rate).rate, ..own })
     }
 
-    /// Takes the reel at an end away: what is out stays, and nothing moves through the eye any more. Does nothing without a reel.
+    /// Takes the reel at an end away: what is out stays, and nothing moves through the eye any
+    /// more. Does nothing without a reel.
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the mass matrix cannot be factored; not for a cable that was built.
@@ -211,7 +217,8 @@ impl Cable {
 }
 
 impl Model {
-    /// Renumbers the supports of a cable that had so many nodes, of which `added` more are at a reel at its start now.
+    /// Renumbers the supports of a cable that had so many nodes, of which `added` more are at a
+    /// reel at its start now.
     fn renumber(&mut self, before: usize, added: i64) {
         let (last, [at_start, at_end]) = (self.nodes() - 1, Side::BOTH.map(|side| self.reels.get(side).is_some()));
         for (node, _) in &mut self.supports {
@@ -223,7 +230,8 @@ impl Model {
         }
     }
 
-    /// Puts the loads where their material is after a length in m came through the eye at the start: whatever the way to it, to the last bit.
+    /// Puts the loads where their material is after a length in m came through the eye at the
+    /// start: whatever the way to it, to the last bit.
     pub(super) fn move_loads(&mut self, passed: f64) {
         let length = self.length();
         self.potentials.move_to(passed, length);
@@ -232,7 +240,8 @@ impl Model {
         }
     }
 
-    /// Notes which material the loads are on, when so much in m has come through the eye at the start.
+    /// Notes which material the loads are on, when so much in m has come through the eye at the
+    /// start.
     pub(super) fn note_load_origins(&mut self, passed: f64) {
         self.load_origins.clear();
         self.load_origins.extend(self.loads.iter().map(|load| load.arc_length - passed));

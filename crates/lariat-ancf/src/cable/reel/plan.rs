@@ -1,14 +1,18 @@
-//! The rate of a reel over a step: as its table asks, with a limit on acceleration, and to a soft stop at the ends.
+//! The rate of a reel over a step: as its table asks, with a limit on acceleration, and to a soft
+//! stop at the ends.
 //!
 //! # Equation
 //!
-//! The rate is linear within a host step of length h, and so is the rate that a motor is commanded; the bounds of its end are those of [`rates`]. A host step that is
-//! taken in several steps is planned once, when it begins; where the table has a row in it, each of its steps is planned by itself, so that the row counts from the next one on.
+//! The rate is linear within a host step of length h, and so is the rate that a motor is commanded;
+//! the bounds of its end are those of [`rates`]. A host step that is taken in several steps is
+//! planned once, when it begins; where the table has a row in it, each of its steps is planned by
+//! itself, so that the row counts from the next one on.
 //!
 //! # Alternatives considered
 //!
-//! A plan for every step: what is asked for is reached within the first one. At 60 to 120 Hz in steps of 1/240 s a sine of the rate was followed by a staircase, and a
-//! pendulum whose length has that rate was off by up to 2e-3 of its length in 10 s.
+//! A plan for every step: what is asked for is reached within the first one. At 60 to 120 Hz in
+//! steps of 1/240 s a sine of the rate was followed by a staircase, and a pendulum whose length has
+//! that rate was off by up to 2e-3 of its length in 10 s.
 
 use super::winding::{Plan, Winding};
 use crate::cable::Cable;
@@ -33,8 +37,10 @@ impl Cable {
         }
     }
 
-    /// Returns the length in m that the reel of an end can take in beside the element at the eye: up to the next held node, element with a load or of another
-    /// section, or at another eye, less the least element; or a length with which that element makes more than `enough` (m), and less than that.
+    /// Returns the length in m that the reel of an end can take in beside the element at the eye:
+    /// up to the next held node, element with a load or of another section, or at another eye, less
+    /// the least element; or a length with which that element makes more than `enough` (m), and
+    /// less than that.
     fn reach(&self, side: Side, enough: f64) -> f64 {
         let (model, count) = (&self.model, self.elements().len());
         let element = |k: usize| if side == Side::End { count - 1 - k } else { k };
@@ -54,13 +60,15 @@ impl Cable {
         beside - least(last)
     }
 
-    /// Returns the length in m that the reel of an end can take in, or one that is more than `enough` (m) and less than that.
+    /// Returns the length in m that the reel of an end can take in, or one that is more than
+    /// `enough` (m) and less than that.
     fn left(&self, side: Side, enough: f64) -> f64 {
         self.elements()[side.element(self.elements().len())].length + self.reach(side, enough)
     }
 
-    /// Returns whether the far node of element number `k` from the eye, `from_eye` m from there, has to stay: because the next element is of
-    /// another section, or has a point load on it, but at its own far node.
+    /// Returns whether the far node of element number `k` from the eye, `from_eye` m from there,
+    /// has to stay: because the next element is of another section, or has a point load on it, but
+    /// at its own far node.
     pub(super) fn keeps_node_behind(&self, side: Side, from_eye: f64, k: usize) -> bool {
         let count = self.elements().len();
         if k + 1 >= count {
@@ -94,8 +102,9 @@ impl Cable {
         stock.map_or(f64::INFINITY, |stock| stock - self.length())
     }
 
-    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length `h` (s); so much in s is left of that. `reach` is what it can
-    /// take in beside the element at the eye, if that is known.
+    /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length
+    /// `h` (s); so much in s is left of that. `reach` is what it can take in beside the element at
+    /// the eye, if that is known.
     pub(super) fn law(
         &self,
         (side, reel, winding): (Side, &Reel, &Winding),

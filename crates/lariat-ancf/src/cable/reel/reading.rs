@@ -13,15 +13,17 @@ pub struct ReelReading {
     pub length_out: f64,
     /// Rate in m/s: positive pays out.
     pub rate: f64,
-    /// Pull of the winch on the cable along itself in N: with the discrete gradient the mean over its last step, but that at its end where
-    /// [`max_force`](Reel::max_force) was lowered, which a motor that slips follows linearly over a host step; else that at the present
-    /// state.
+    /// Pull of the winch on the cable along itself in N: with the discrete gradient the mean over
+    /// its last step, but that at its end where [`max_force`](Reel::max_force) was lowered, which a
+    /// motor that slips follows linearly over a host step; else that at the present state.
     pub force: f64,
-    /// Tension of the cable at the eye in N, from the pull: `T f - u = pull + 1/2 rho A rate^2 (f^2 - 1)`, u the strain
-    /// energy per length. Smoother than what [`Cable::sample`] reads there, which depends on the length of the element.
+    /// Tension of the cable at the eye in N, from the pull: `T f - u = pull + 1/2 rho A rate^2
+    /// (f^2 - 1)`, u the strain energy per length. Smoother than what [`Cable::sample`] reads
+    /// there, which depends on the length of the element.
     pub tension: f64,
-    /// Work of the winch on the cable so far in J, with the kinetic and the potential energy of the material that entered: the energy
-    /// of the cable changes by this, by the work of all else, and by `remeshed`.
+    /// Work of the winch on the cable so far in J, with the kinetic and the potential energy of the
+    /// material that entered: the energy of the cable changes by this, by the work of all else, and
+    /// by `remeshed`.
     pub work: f64,
     /// Energy in J that merging and splitting elements added so far.
     pub remeshed: f64,
@@ -31,7 +33,8 @@ pub struct ReelReading {
     pub merges: u64,
     /// Whether it slows down or stands at the end of its stock, at a held node or a load.
     pub stopped: bool,
-    /// Rate over the speed of transverse waves at the eye: above 0.3, give the cable internal damping. Infinite without tension.
+    /// Rate over the speed of transverse waves at the eye: above 0.3, give the cable internal
+    /// damping. Infinite without tension.
     pub speed_ratio: f64,
 }
 

@@ -2,33 +2,39 @@
 //!
 //! # Equation
 //!
-//! *Split* above 1.6 of its full length h: the node at y = h takes position, slope and velocities of the particle there,
-//! `r = S e`, `r' = S e' + l' w`, `t' = S_y e' + l' w_y`, so shape, mass, momentum and kinetic energy stay to rounding.
+//! *Split* above 1.6 of its full length h: the node at y = h takes position, slope and velocities
+//! of the particle there, `r = S e`, `r' = S e' + l' w`, `t' = S_y e' + l' w_y`, so shape, mass,
+//! momentum and kinetic energy stay to rounding.
 //!
-//! *Merge* below 0.4 h with the element before: the outer nodes keep position and slope, so the pull at the eye does not jump; the
-//! slope there keeps the rate of its particle, `t' + l' (r''_new - r''_old)`. Then the velocities take the jump of the momentum,
+//! *Merge* below 0.4 h with the element before: the outer nodes keep position and slope, so the
+//! pull at the eye does not jump; the slope there keeps the rate of its particle, `t' + l'
+//! (r''_new - r''_old)`. Then the velocities take the jump of the momentum,
 //!
 //! ```text
 //! v += M^-1 rho int S^T (v_old - S e' - l' w_new) dy          over all free coordinates
 //! ```
 //!
-//! which is a projection in the norm of the mass: momentum stays but for the impulse on supports, and kinetic energy falls but for the
-//! product of `v_old - v_new` with l' w_new, of the order of the waves that the mesh does not resolve. The shape has changed and with it
-//! `int rho r x v`: a cable that no support holds takes that up by a rigid rotation about its centre of mass. Where the energy is then more than
-//! before, nodes [move](super::settle). The change of the whole energy is on the account [`remeshed`](super::ReelReading::remeshed).
+//! which is a projection in the norm of the mass: momentum stays but for the impulse on supports,
+//! and kinetic energy falls but for the product of `v_old - v_new` with l' w_new, of the order of
+//! the waves that the mesh does not resolve. The shape has changed and with it `int rho r x v`: a
+//! cable that no support holds takes that up by a rigid rotation about its centre of mass. Where
+//! the energy is then more than before, nodes [move](super::settle). The change of the whole energy
+//! is on the account [`remeshed`](super::ReelReading::remeshed).
 //!
-//! The discrete gradient remembers the last step: a node that a split makes has the changes of its particle, and the others keep theirs, so that no
-//! force jumps; where that would hold more energy than before, less is remembered. At the start of a cable the same is done to the reversed one.
+//! The discrete gradient remembers the last step: a node that a split makes has the changes of its
+//! particle, and the others keep theirs, so that no force jumps; where that would hold more energy
+//! than before, less is remembered. At the start of a cable the same is done to the reversed one.
 //!
 //! # Validity
 //!
-//! Contacts are of elements that are not at an eye: those of one that comes to it are forgotten, and their energy is lost.
-//! A node that is held, or before an element with a point load or of another section, is not merged away: the reel stops before it.
+//! Contacts are of elements that are not at an eye: those of one that comes to it are forgotten,
+//! and their energy is lost. A node that is held, or before an element with a point load or of
+//! another section, is not merged away: the reel stops before it.
 //!
 //! # Alternatives considered
 //!
-//! Merging by deleting the node: loses up to 2 % of the momentum, and feeds waves of the mesh. Splitting at 1.5 and merging at 0.5:
-//! no hysteresis, it chatters.
+//! Merging by deleting the node: loses up to 2 % of the momentum, and feeds waves of the mesh.
+//! Splitting at 1.5 and merging at 0.5: no hysteresis, it chatters.
 
 use crate::cable::Cable;
 use crate::element::shape::{self, combine};
@@ -54,8 +60,8 @@ struct Turned {
     full: Element,
     next: Element,
     rate: f64,
-    /// Changes of `q` and `v` over the last step of the discrete gradient, and at its beginning length in m and rate in m/s of the element at
-    /// the eye.
+    /// Changes of `q` and `v` over the last step of the discrete gradient, and at its beginning
+    /// length in m and rate in m/s of the element at the eye.
     changes: Option<[Vec<f64>; 2]>,
     length_before: f64,
     rate_before: f64,
@@ -126,7 +132,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Replaces the last `removed` elements before the eye by `elements`, ordered towards it, with the turned state that goes with them.
+    /// Replaces the last `removed` elements before the eye by `elements`, ordered towards it, with
+    /// the turned state that goes with them.
     fn replace_elements(&mut self, mut turned: Turned, removed: usize, elements: &[Element]) -> Result<(), Error> {
         let (before, added) = (self.nodes(), elements.len() as i64 - removed as i64);
         let side = turned.side;
@@ -170,7 +177,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Makes the memory of the discrete gradient hold no more than an energy in J; what it holds less is dissipated.
+    /// Makes the memory of the discrete gradient hold no more than an energy in J; what it holds
+    /// less is dissipated.
     fn bound_store(&mut self, most: f64) {
         let held = self.energy_in_store();
         let differences = &mut self.snapshot.state.memory.differences;
@@ -259,7 +267,8 @@ impl Cable {
 
     /// Changes velocities by an impulse on all coordinates, but those that supports hold.
     pub(super) fn take_up(&mut self, mut impulse: Vec<f64>) -> Result<(), Error> {
-        // nodes on bodies move with them: the next step of the island shares their jump with the bodies
+        // nodes on bodies move with them: the next step of the island shares their jump with the
+        // bodies
         let mut free = self.model.clone();
         free.supports.retain(|(_, support)| !support.attached);
         let outcome = self.system.factor_mass(&free).and_then(|()| {

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! One cubic in place of two has more strain energy where the cable is kinked, and two in place of one see more of it: on a slack rope of
-//! large EA by far more than all work. Where the energy is above a bound, nodes move by implicit Euler steps from rest,
+//! One cubic in place of two has more strain energy where the cable is kinked, and two in place of
+//! one see more of it: on a slack rope of large EA by far more than all work. Where the energy is
+//! above a bound, nodes move by implicit Euler steps from rest,
 //!
 //! ```text
 //! (M + tau^2 K) d = tau^2 F
@@ -12,21 +13,24 @@
 //! each of which lowers the energy, shortened so that it ends at the bound. Velocities take up what
 //! the feed at the eye then misses of its momentum.
 //!
-//! The bound is the energy before the change, and 1e-3 of the pull times the length of the element at the eye: the share of the work of a
-//! reel to which its account is kept.
+//! The bound is the energy before the change, and 1e-3 of the pull times the length of the element
+//! at the eye: the share of the work of a reel to which its account is kept.
 //!
 //! # Validity
 //!
-//! tau is at most the time in which an element passes the eye, or an axial wave the cable: the step is what the rope would do meanwhile. What is
-//! above the bound then is taken from velocities relative to rigid motion, but for cables on bodies; the rest is on the account of the reel: the
-//! energy that the coarser mesh cannot do without. Momentum is kept, and angular momentum of a cable that no support holds, by a rigid
-//! rotation.
+//! tau is at most the time in which an element passes the eye, or an axial wave the cable: the step
+//! is what the rope would do meanwhile. What is above the bound then is taken from velocities
+//! relative to rigid motion, but for cables on bodies; the rest is on the account of the reel: the
+//! energy that the coarser mesh cannot do without. Momentum is kept, and angular momentum of a
+//! cable that no support holds, by a rigid rotation.
 //!
 //! # Alternatives considered
 //!
 //! - To wait with the merge: smooth slack ropes of large EA would stop the winch.
-//! - To take the energy from velocities: a kink at rest has none, and a swinging rope would be braked by a kink at its end.
-//! - Slopes of least energy at the ends of the merged element: they cannot relieve a chord that is too short.
+//! - To take the energy from velocities: a kink at rest has none, and a swinging rope would be
+//!   braked by a kink at its end.
+//! - Slopes of least energy at the ends of the merged element: they cannot relieve a chord that is
+//!   too short.
 
 use crate::cable::Cable;
 use crate::element::side::Side;
@@ -56,7 +60,8 @@ impl Cable {
         e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt()
     }
 
-    /// Moves nodes until the energy is at most `most` (J), or as far as strains can be relieved within `longest` (s).
+    /// Moves nodes until the energy is at most `most` (J), or as far as strains can be relieved
+    /// within `longest` (s).
     pub(super) fn settle(&mut self, most: f64, longest: f64) -> Result<(), Error> {
         let mut bound = most;
         for _ in 0..ROUNDS {
@@ -79,7 +84,8 @@ impl Cable {
         Ok(())
     }
 
-    /// Takes an energy in J from velocities relative to rigid motion, if there is so much; from none of a cable that bodies hold.
+    /// Takes an energy in J from velocities relative to rigid motion, if there is so much; from
+    /// none of a cable that bodies hold.
     fn slow_down(&mut self, excess: f64) {
         if excess <= 0.0 || self.model.supports.iter().any(|(_, support)| support.attached) {
             return;
@@ -94,7 +100,8 @@ impl Cable {
         }
     }
 
-    /// Makes the angular momentum about the origin what it was in kg m^2/s, if nothing but bodies holds the cable.
+    /// Makes the angular momentum about the origin what it was in kg m^2/s, if nothing but bodies
+    /// holds the cable.
     pub(super) fn keep_angular_momentum(&mut self, before: &Vector3<f64>) {
         if self.model.supports.iter().all(|(_, support)| support.attached) {
             self.turn_by(&(before - self.momentum().angular));

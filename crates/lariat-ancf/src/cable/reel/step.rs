@@ -9,7 +9,8 @@ use crate::reel::{Feed, Reel};
 use crate::scales::reel::{MOST_PARTS, PASSING, STANDING_RATE};
 
 impl Cable {
-    /// Returns the number of parts in which a host step of `dt` (s) is to be taken; 1 without a reel.
+    /// Returns the number of parts in which a host step of `dt` (s) is to be taken; 1 without a
+    /// reel.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a rate that needs more than 1e5.
@@ -88,11 +89,13 @@ impl Cable {
         self.sync_reel();
     }
 
-    /// Checks that an island can step a cable with reels by `dt` (s); `moves` says of a node whether a body holds it that moves freely.
+    /// Checks that an island can step a cable with reels by `dt` (s); `moves` says of a node
+    /// whether a body holds it that moves freely.
     ///
     /// # Errors
-    /// [`Error::ReelPlace`] for an eye on a body that the cable moves, without a stock or without the discrete gradient;
-    /// [`Error::InvalidValue`] if more than half of an element would pass the eye.
+    /// [`Error::ReelPlace`] for an eye on a body that the cable moves, without a stock or without
+    /// the discrete gradient; [`Error::InvalidValue`] if more than half of an element would pass
+    /// the eye.
     pub(crate) fn check_reel_in_island(
         &self,
         moves: impl Fn(usize) -> bool,
@@ -137,8 +140,9 @@ impl Cable {
         Ok(())
     }
 
-    /// Checks, after a step of an island of `dt` (s) failed, that its reels had not to move more than half of the element at the eye, of
-    /// its full or its present length: an unknown rate may grow within the step.
+    /// Checks, after a step of an island of `dt` (s) failed, that its reels had not to move more
+    /// than half of the element at the eye, of its full or its present length: an unknown rate may
+    /// grow within the step.
     ///
     /// # Errors
     /// [`Error::InvalidValue`].

@@ -75,14 +75,16 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// Returns what is left in s of the host step for a step of `h` (s) at `time` (s) and those after it; `None` if it has ended.
+    /// Returns what is left in s of the host step for a step of `h` (s) at `time` (s) and those
+    /// after it; `None` if it has ended.
     pub fn left(&self, time: f64, h: f64) -> Option<f64> {
         let left = self.end - time;
         // the last one ends with the host step, which is a sum with rounding
         (time >= self.begin && left > 0.5 * h).then_some(if left < 1.5 * h { h } else { left })
     }
 
-    /// Returns the acceleration in m/s^2 of a step from a rate in m/s, of which so much in s is left.
+    /// Returns the acceleration in m/s^2 of a step from a rate in m/s, of which so much in s is
+    /// left.
     pub fn acceleration(&self, rate: f64, left: f64) -> f64 {
         (self.rate - rate) / left
     }

@@ -2,14 +2,15 @@
 //!
 //! # Equation
 //!
-//! In coordinates (r_i, l t_i, r_j, l t_j) the weights of position and slope are constants H_k and S_k/l of a unit element, so
+//! In coordinates (r_i, l t_i, r_j, l t_j) the weights of position and slope are constants H_k and
+//! S_k/l of a unit element, so
 //!
 //! ```text
 //! F_k = sum_q w_q l H_k f_q        -dF_k/dx_m = sum_q w_q l (H_k H_m rate D_q - 1/2 (H_k S_m A_q + S_k H_m A_q^T)/l)
 //! ```
 //!
-//! D = -df/dv and A = df/dt ([`drag`](super)); rows and columns of slopes are multiplied by l at the end. Elements are added in
-//! ascending order whatever the width of the lanes.
+//! D = -df/dv and A = df/dt ([`drag`](super)); rows and columns of slopes are multiplied by l at
+//! the end. Elements are added in ascending order whatever the width of the lanes.
 
 use super::law::{Drag, Split};
 use crate::dual::{Dual, constant};
@@ -78,7 +79,8 @@ impl DragTable {
     /// Takes samples of the flow at the nodes, and returns whether they differ from the `old` ones.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`](crate::Error::InvalidValue) for a sample that is not finite; the samples are then as before.
+    /// [`Error::InvalidValue`](crate::Error::InvalidValue) for a sample that is not finite; the
+    /// samples are then as before.
     pub fn sample(
         &mut self,
         old: &mut Vec<Vector3<f64>>,
@@ -211,7 +213,8 @@ impl DragTable {
         }
     }
 
-    /// Adds forces and blocks of the matrix by length of the slopes' shape functions, which are multiples of the element's.
+    /// Adds forces and blocks of the matrix by length of the slopes' shape functions, which are
+    /// multiples of the element's.
     #[inline(always)]
     pub(super) fn scatter_by_length<S: Simd>(
         &self,

@@ -1,4 +1,5 @@
-//! The law of drag: a cable's numbers, and the velocity relative to the fluid by directions. Equation: [`drag`](super).
+//! The law of drag: a cable's numbers, and the velocity relative to the fluid by directions.
+//! Equation: [`drag`](super).
 
 use crate::Real;
 use crate::effect::flow::Flow;

@@ -9,17 +9,19 @@
 //! df/dt = (1/|t|) [k_n (|v_n| (e v_n^T + c P) + c v_n v_n^T/|v_n|) - k_t (2 |c| e v_n^T + |c| c P)]         c = v.e, P = I - e e^T
 //! ```
 //!
-//! (here r' is the velocity, t the slope dr/ds.) f is a force per length of the unstretched cable, integrated at three Gauss points.
-//! Both coefficients refer to the diameter.
+//! (here r' is the velocity, t the slope dr/ds.) f is a force per length of the unstretched cable,
+//! integrated at three Gauss points. Both coefficients refer to the diameter.
 //!
-//! The derivative by velocity is exact and symmetric. By the slope the formula above is exact, of which the step takes the symmetric
-//! half (its matrix is stored by one triangle); the gradient of the flow in space is left out. Newton's iteration is then linear with
-//! a small factor, which its stopping test knows. The exact derivative is [`Cable::jacobians`](crate::coupling::Linearisation::jacobians)'s.
+//! The derivative by velocity is exact and symmetric. By the slope the formula above is exact, of
+//! which the step takes the symmetric half (its matrix is stored by one triangle); the gradient of
+//! the flow in space is left out. Newton's iteration is then linear with a small factor, which its
+//! stopping test knows. The exact derivative is
+//! [`Cable::jacobians`](crate::coupling::Linearisation::jacobians)'s.
 //!
 //! # Validity
 //!
-//! A slender cable, stretch near 1; steady coefficients; no lift, no shedding of vortices; added mass is
-//! [`buoyancy`](super::buoyancy)'s.
+//! A slender cable, stretch near 1; steady coefficients; no lift, no shedding of vortices; added
+//! mass is [`buoyancy`](super::buoyancy)'s.
 //!
 //! # References
 //!
@@ -28,8 +30,9 @@
 //! # Alternatives considered
 //!
 //! - Drag on nodes: the force on a coarse cable is wrong, and slopes get none.
-//! - The exact, unsymmetric tangent in Newton's iteration: it saves 0 to 2 % of the iterations up to 5 m/s of water, 36 % at 20 m/s on a
-//!   2 mm line at fidelity game, 2 % of the same under error control, and an unsymmetric matrix costs every iteration.
+//! - The exact, unsymmetric tangent in Newton's iteration: it saves 0 to 2 % of the iterations up
+//!   to 5 m/s of water, 36 % at 20 m/s on a 2 mm line at fidelity game, 2 % of the same under error
+//!   control, and an unsymmetric matrix costs every iteration.
 
 mod lanes;
 mod law;

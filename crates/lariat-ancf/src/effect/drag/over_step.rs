@@ -1,5 +1,5 @@
-//! Drag over a step of the [discrete gradient](crate::integrate::discrete_gradient): linear in the mean velocity, with coefficients of the
-//! iterate about which the step is linearised.
+//! Drag over a step of the [discrete gradient](crate::integrate::discrete_gradient): linear in the
+//! mean velocity, with coefficients of the iterate about which the step is linearised.
 //!
 //! # Equation
 //!
@@ -7,8 +7,9 @@
 //! f = -D (v^ - u),   D = k_n |w_n| (I - e e^T) + k_t |w.e| e e^T,   w = v - u of that iterate, e its direction
 //! ```
 //!
-//! D is positive semi-definite, so the power in a fluid at rest is never positive, at any step and any iterate, and the step matrix stays
-//! definite. At convergence w = v^ - u, and this is the force of [`drag`](super).
+//! D is positive semi-definite, so the power in a fluid at rest is never positive, at any step and
+//! any iterate, and the step matrix stays definite. At convergence w = v^ - u, and this is the
+//! force of [`drag`](super).
 
 use super::lanes::{DragTable, Lanes, PAIRS, combine, times};
 use super::law::Split;

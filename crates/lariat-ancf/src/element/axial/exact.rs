@@ -2,13 +2,13 @@
 //!
 //! # Equation
 //!
-//! `a = int b dxi`, `A = int b b^T dxi`; b b^T has degree 8, which five Gauss points integrate exactly, so this is also what G5-x to
-//! G10-x give, to rounding.
+//! `a = int b dxi`, `A = int b b^T dxi`; b b^T has degree 8, which five Gauss points integrate
+//! exactly, so this is also what G5-x to G10-x give, to rounding.
 //!
 //! # Validity
 //!
-//! Any state; locks for thin cables (error ~ EA L^2/EI until elements are short), because the quartic part of the strain cannot vanish in
-//! a bent element.
+//! Any state; locks for thin cables (error ~ EA L^2/EI until elements are short), because the
+//! quartic part of the strain cannot vanish in a bent element.
 //!
 //! # References
 //!
@@ -30,7 +30,8 @@ mod tests {
     use crate::element::gram::{Six, quadratic_form};
     use approx::assert_relative_eq;
 
-    /// The closed form in Bernstein control vectors (630 A, and a), integrated by hand; c1 = d1 - d0 - d2.
+    /// The closed form in Bernstein control vectors (630 A, and a), integrated by hand; c1 = d1 -
+    /// d0 - d2.
     #[test]
     fn five_gauss_points_give_the_closed_form_integrals() {
         const A630: [[f64; 6]; 6] = [

@@ -6,8 +6,9 @@
 //!
 //! # Validity
 //!
-//! Five points and more are exact. Three and four under-integrate, which reduces locking a little. One and two points leave zero-energy
-//! modes of the slope: rejected beside a full-curvature rule ([`Rule::check`](crate::Rule::check)).
+//! Five points and more are exact. Three and four under-integrate, which reduces locking a little.
+//! One and two points leave zero-energy modes of the slope: rejected beside a full-curvature rule
+//! ([`Rule::check`](crate::Rule::check)).
 //!
 //! # References
 //!

@@ -1,4 +1,5 @@
-//! Axial rules: how the energy of the Green strain eps = (r'.r' - 1)/2 is integrated over an element.
+//! Axial rules: how the energy of the Green strain eps = (r'.r' - 1)/2 is integrated over an
+//! element.
 //!
 //! Since r'.r' = b(xi).g, *every* rule here is a constant quadratic form of the six Gram numbers g
 //! (see [`gram`](crate::element::gram)):
@@ -7,8 +8,9 @@
 //! U = EA l/8 (g.A.g - 2 a.g + 1)        dU/dg = EA l/4 (A g - a)        d2U/dg2 = EA l/4 A
 //! ```
 //!
-//! so a rule is a table (a, A) made once, the Hessian is a constant, and a ten-point Gauss rule costs what mean
-//! strain costs. *Validity.* Any strain; the Green law softens in compression (dN/df = 0 at f = 0.577).
+//! so a rule is a table (a, A) made once, the Hessian is a constant, and a ten-point Gauss rule
+//! costs what mean strain costs. *Validity.* Any strain; the Green law softens in compression
+//! (dN/df = 0 at f = 0.577).
 //!
 //! | file | rule | paper's name |
 //! |---|---|---|

@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! The Green strain of an element is quartic in xi; a bent inextensible element cannot make all of it vanish, which is membrane
-//! locking. Projected on linear functions of xi it can. A share delta of the exact energy stiffens the one mode that is left:
+//! The Green strain of an element is quartic in xi; a bent inextensible element cannot make all of
+//! it vanish, which is membrane locking. Projected on linear functions of xi it can. A share delta
+//! of the exact energy stiffens the one mode that is left:
 //!
 //! ```text
 //! U = EA l/8 [ (1 - delta) ((a.g - 1)^2 + 12 (d.g)^2) + delta (g.A.g - 2 a.g + 1) ]
@@ -12,17 +13,19 @@
 //!
 //! # Validity
 //!
-//! With bending by two points or more, T1 or T2. Measured by `tests/pendulum.rs` and `tests/elastica.rs`: 10 elements, the paper's
-//! pendulum against the real beam 2.4e-3 m, exact strain 1.1e-2 m.
+//! With bending by two points or more, T1 or T2. Measured by `tests/pendulum.rs` and
+//! `tests/elastica.rs`: 10 elements, the paper's pendulum against the real beam 2.4e-3 m, exact
+//! strain 1.1e-2 m.
 //!
 //! # References
 //!
-//! Assumed-strain / B-bar projection (Hughes 2000, section 4.5; Simo & Hughes 1986), applied to this element here.
+//! Assumed-strain / B-bar projection (Hughes 2000, section 4.5; Simo & Hughes 1986), applied to
+//! this element here.
 //!
 //! # Alternatives considered
 //!
-//! Two-point axial quadrature (one zero-energy mode); mean strain with full curvature (two); delta = 0 (one); delta = 1e-2 locks again in
-//! part.
+//! Two-point axial quadrature (one zero-energy mode); mean strain with full curvature (two); delta
+//! = 0 (one); delta = 1e-2 locks again in part.
 
 use super::{AxialTable, add_outer, exact, moment};
 use crate::element::gram::Six;
@@ -39,7 +42,8 @@ pub fn table() -> AxialTable {
     AxialTable::new(a, matrix)
 }
 
-/// Returns the Green strain at xi, projected on linear functions: `((a.g - 1) + 12 (d.g) (xi - 1/2))/2`.
+/// Returns the Green strain at xi, projected on linear functions: `((a.g - 1) + 12 (d.g) (xi -
+/// 1/2))/2`.
 pub(crate) fn strain(g: &Six<f64>, xi: f64) -> f64 {
     static MOMENTS: LazyLock<[Six<f64>; 2]> = LazyLock::new(|| [moment(|_| 1.0), moment(|x| x - 0.5)]);
     let [a, d] = &*MOMENTS;

@@ -2,18 +2,21 @@
 //!
 //! # Equation
 //!
-//! `u = sum_q w_q P_q/Q_q^3`, `Q = |r'|^2 = b.g`, and with `p01 = (1-xi)^2`, `p02 = xi(1-xi) - (1-xi)^2 - xi^2`, `p12 = xi^2`
+//! `u = sum_q w_q P_q/Q_q^3`, `Q = |r'|^2 = b.g`, and with `p01 = (1-xi)^2`, `p02 = xi(1-xi) -
+//! (1-xi)^2 - xi^2`, `p12 = xi^2`
 //!
 //! ```text
 //! (l/2) r' x r'' = p01 d0xd1 + p02 d0xd2 + p12 d1xd2        P = m . X(g)
 //! ```
 //!
-//! where X are the six products of those cross products, which are the 2x2 minors of the Gram matrix (Binet-Cauchy), and m the monomials
-//! of p. The degree of r' x r'' is two, not three: the cubic terms cancel.
+//! where X are the six products of those cross products, which are the 2x2 minors of the Gram
+//! matrix (Binet-Cauchy), and m the monomials of p. The degree of r' x r'' is two, not three: the
+//! cubic terms cancel.
 //!
 //! # Validity
 //!
-//! Any: where |r'| < 1/2 at a point, Q^-3 is continued smoothly (`regularisation`). Two points or more: one leaves zero-energy modes.
+//! Any: where |r'| < 1/2 at a point, Q^-3 is continued smoothly (`regularisation`). Two points or
+//! more: one leaves zero-energy modes.
 //!
 //! # References
 //!
@@ -21,7 +24,8 @@
 //!
 //! # Alternatives considered
 //!
-//! Three-vectors at the points (three times the work); the rational integral in closed form (paper: too long).
+//! Three-vectors at the points (three times the work); the rational integral in closed form (paper:
+//! too long).
 
 use super::Bending;
 use super::regularisation::RegularisedPower;
@@ -67,7 +71,8 @@ pub(crate) fn minor_coefficients(xi: f64) -> Six<f64> {
     [p01 * p01, 2.0 * p01 * p02, 2.0 * p01 * p12, p02 * p02, 2.0 * p02 * p12, p12 * p12]
 }
 
-/// The 2x2 minors of the Gram matrix, for the pairs of cross products (01,01), (01,02), (01,12), (02,02), (02,12), (12,12).
+/// The 2x2 minors of the Gram matrix, for the pairs of cross products (01,01), (01,02), (01,12),
+/// (02,02), (02,12), (12,12).
 #[inline(always)]
 pub(crate) fn minors<T: Real>(g: &Six<T>) -> Six<T> {
     let [g00, g01, g02, g11, g12, g22] = *g;
@@ -141,7 +146,8 @@ impl Bending for Gauss {
     fn add_gradient<T: Real>(&self, g: &Six<T>, scale: T, n: &mut Six<T>) {
         let x = minors(g);
         let zero = scale.splat(0.0);
-        // gradient of sum_q c_q P_q at fixed c_q = w_q/Q_q^3 is one sweep over the minors: collect c_q m_q first
+        // gradient of sum_q c_q P_q at fixed c_q = w_q/Q_q^3 is one sweep over the minors: collect
+        // c_q m_q first
         let mut minor_weights = [zero; 6];
         for point in &self.points {
             let at = RegularisedPower::new(form(&point.b, g));
@@ -197,7 +203,8 @@ impl Bending for Gauss {
 
     #[inline(always)]
     fn add_discrete_gradient<T: Real>(&self, g: [&Six<T>; 2], scale: T, n: &mut Six<T>) {
-        // D(P f) = f_mean DP + P_mean Df, and DP = P_g at the mean numbers, since P is quadratic in them
+        // D(P f) = f_mean DP + P_mean Df, and DP = P_g at the mean numbers, since P is quadratic in
+        // them
         let (x, mean) = middle(g);
         let zero = scale.splat(0.0);
         let mut minor_weights = [zero; 6];

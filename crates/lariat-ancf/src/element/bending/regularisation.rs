@@ -1,24 +1,27 @@
 //! Powers of 1/|r'|^2 that stay finite in a crumpled element.
 //!
-//! Every curvature divides by a power of Q = |r'|^2, so an element whose slope passes through zero somewhere would hold infinite
-//! energy there, and no step could pass through that state.
+//! Every curvature divides by a power of Q = |r'|^2, so an element whose slope passes through zero
+//! somewhere would hold infinite energy there, and no step could pass through that state.
 //!
 //! # Equation
 //!
-//! Below Q_c = 1/4, half the length, the power is continued by its Taylor polynomial of second order:
+//! Below Q_c = 1/4, half the length, the power is continued by its Taylor polynomial of second
+//! order:
 //!
 //! ```text
 //! q = max(Q, Q_c), x = (Q - q)/q          Q >= Q_c: x = 0, the powers themselves, bit for bit
 //! Q^-k  ->  f = q^-k (1 - k x + k(k+1)/2 x^2),  f' = -k q^-(k+1) (1 - (k+1) x),  f'' = k(k+1) q^-(k+2)
 //! ```
 //!
-//! f, f' and f'' are continuous, and so are energy, force and tangent; f <= 10 Q_c^-3, and with |r' x r''|^2 <= Q |r''|^2 the energy of
-//! a point is at most twice what it is at Q_c with the same r'': it goes to zero with r', and the element can pass through.
+//! f, f' and f'' are continuous, and so are energy, force and tangent; f <= 10 Q_c^-3, and with |r'
+//! x r''|^2 <= Q |r''|^2 the energy of a point is at most twice what it is at Q_c with the same
+//! r'': it goes to zero with r', and the element can pass through.
 //!
 //! # Validity
 //!
-//! Q >= Q_c is not changed. Below it no cable law holds: the Green law itself has lost its axial stiffness at |r'| = 0.577
-//! ([`axial`](crate::element::axial)), so no measured behaviour is given up.
+//! Q >= Q_c is not changed. Below it no cable law holds: the Green law itself has lost its axial
+//! stiffness at |r'| = 0.577 ([`axial`](crate::element::axial)), so no measured behaviour is given
+//! up.
 //!
 //! # Alternatives considered
 //!

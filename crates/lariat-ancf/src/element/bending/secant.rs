@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! With q = max(Q, Q_c) and y = Q - q <= 0, the continued power of [`regularisation`](super::regularisation) is a sum, f(Q) = q^-k + p(y), and both
-//! parts have exact secants that need no difference of nearly equal numbers:
+//! With q = max(Q, Q_c) and y = Q - q <= 0, the continued power of
+//! [`regularisation`](super::regularisation) is a sum, f(Q) = q^-k + p(y), and both parts have
+//! exact secants that need no difference of nearly equal numbers:
 //!
 //! ```text
 //! D(q^-2) = -(q0 + q1)/(q0 q1)^2 Dq            D(q^-3) = -(q0^2 + q0 q1 + q1^2)/(q0 q1)^3 Dq
@@ -11,8 +12,9 @@
 //! f[Q0,Q1] = (D(q^-k) + D p)/DQ = (1 - m) D(q^-k)/Dq + m Dp/Dy,                m = Dy/DQ, between 0 and 1
 //! ```
 //!
-//! m is 0 above Q_c, where D(q^-k)/Dq is all that is computed, and 1 below it. Where both ends fall together it is regularised by 1e-20: what that changes in f[Q0,Q1] DQ is of
-//! that size too, because there both secants are the derivative.
+//! m is 0 above Q_c, where D(q^-k)/Dq is all that is computed, and 1 below it. Where both ends fall
+//! together it is regularised by 1e-20: what that changes in f[Q0,Q1] DQ is of that size too,
+//! because there both secants are the derivative.
 //!
 //! # Validity
 //!
@@ -20,8 +22,8 @@
 //!
 //! # Alternatives considered
 //!
-//! The discrete gradient of Gonzalez (1996), which adds what the derivative at the midpoint misses along the displacement: it divides by
-//! the square of the displacement, which is zero at rest.
+//! The discrete gradient of Gonzalez (1996), which adds what the derivative at the midpoint misses
+//! along the displacement: it divides by the square of the displacement, which is zero at rest.
 
 use crate::Real;
 use crate::scales::element::{LOWER_LIMIT, SMALL, SMALL_SQUARE};
@@ -48,7 +50,8 @@ impl<T: Real> PowerSecant<T> {
         Self::new::<3>(start, end)
     }
 
-    /// Of Q^-K, K = 2 or 3. No closures: the compiler does not inline them into a function of another SIMD level.
+    /// Of Q^-K, K = 2 or 3. No closures: the compiler does not inline them into a function of
+    /// another SIMD level.
     #[inline(always)]
     fn new<const K: usize>(start: T, end: T) -> Self {
         // 1/Q_c^(K + 1)
@@ -84,8 +87,8 @@ mod tests {
     use super::*;
     use crate::element::bending::regularisation::RegularisedPower;
 
-    /// Lanes that are all above Q_c take a shorter way than those of which one is not: the others have the same bits either way, whatever
-    /// their change.
+    /// Lanes that are all above Q_c take a shorter way than those of which one is not: the others
+    /// have the same bits either way, whatever their change.
     #[test]
     fn the_shorter_way_above_the_limit_has_the_same_bits() {
         use crate::simd::dispatch;
@@ -122,7 +125,8 @@ mod tests {
         at.inverse.powi(k) * at.value(f64::from(k))
     }
 
-    /// Both ends above, both below, and one on each side of Q_c; far apart, close together, and equal.
+    /// Both ends above, both below, and one on each side of Q_c; far apart, close together, and
+    /// equal.
     #[test]
     fn the_secant_times_the_change_is_the_difference_and_at_rest_it_is_the_derivative() {
         let starts = [0.0, 1e-3, 0.1, 0.2, LOWER_LIMIT - 1e-9, LOWER_LIMIT, LOWER_LIMIT + 1e-9, 0.3, 1.0, 1.7];

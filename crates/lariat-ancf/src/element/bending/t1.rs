@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! `u = rho.g`, `rho.g = (l^2/4) int |r''|^2 dxi`, `rho = (1, -1, 1, 1/3, -1, 1)` in the pairs of the d basis. The force is linear, the
-//! tangent constant.
+//! `u = rho.g`, `rho.g = (l^2/4) int |r''|^2 dxi`, `rho = (1, -1, 1, 1/3, -1, 1)` in the pairs of
+//! the d basis. The force is linear, the tangent constant.
 //!
 //! # Validity
 //!

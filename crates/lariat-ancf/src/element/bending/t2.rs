@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! `u = R/A^2`, `R = rho.g`, `A = a.g = int |r'|^2 dxi`; the derivative of A is kept, so the force has an energy. Where A < 1/4, A^-2 is
-//! continued smoothly (`regularisation`).
+//! `u = R/A^2`, `R = rho.g`, `A = a.g = int |r'|^2 dxi`; the derivative of A is kept, so the force
+//! has an energy. Where A < 1/4, A^-2 is continued smoothly (`regularisation`).
 //!
 //! # Validity
 //!
@@ -15,8 +15,9 @@
 //!
 //! # Alternatives considered
 //!
-//! A frozen while differentiating (the literal reading): it is the gradient of no energy, the pendulum's energy drifts, and it reproduces
-//! the paper's number worse (2.8e-4 m from G10-10, 9.6e-5 with the derivative, 1.02e-4 printed: assets/reference/table1_reproduction.csv).
+//! A frozen while differentiating (the literal reading): it is the gradient of no energy, the
+//! pendulum's energy drifts, and it reproduces the paper's number worse (2.8e-4 m from G10-10,
+//! 9.6e-5 with the derivative, 1.02e-4 printed: assets/reference/table1_reproduction.csv).
 
 use super::Bending;
 use super::regularisation::RegularisedPower;

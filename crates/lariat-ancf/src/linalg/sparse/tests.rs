@@ -123,7 +123,8 @@ fn a_singular_matrix_and_one_that_is_not_finite_are_errors() {
     assert!(matrix.factor().is_err());
 }
 
-/// A chain has no fill-in, and a net of 10 x 10 has at most 600 blocks of 4950, with 180 couplings of its own.
+/// A chain has no fill-in, and a net of 10 x 10 has at most 600 blocks of 4950, with 180 couplings
+/// of its own.
 #[test]
 fn a_chain_and_a_net_are_ordered_with_few_fill_ins() {
     let mut order = Elimination::default();

@@ -1,19 +1,23 @@
-//! Discrete-gradient forces of all elements, their tangent and their dissipation, eight elements at a time.
+//! Discrete-gradient forces of all elements, their tangent and their dissipation, eight elements at
+//! a time.
 //!
 //! # Equation
 //!
-//! The pairs n of an element ([`element::step`](crate::element::step)) add up those of the axial rule, of the bending rule and of effects; the force is
-//! `N(n) dm`. Of its derivative by the change D d the tangent takes, with `B = dg/dd` at dm,
+//! The pairs n of an element ([`element::step`](crate::element::step)) add up those of the axial
+//! rule, of the bending rule and of effects; the force is `N(n) dm`. Of its derivative by the
+//! change D d the tangent takes, with `B = dg/dd` at dm,
 //!
 //! ```text
 //! b (EA l/4) B^T A B + 1/2 max(0, sigma) N(a) + 1/2 (N(n_b) + B^T u''(gm) B) + a (2EI/l) N(rho) + effects
 //! ```
 //!
-//! sigma is the mean axial stress. Left out are `B^T A (B(d1) - B)`, which is unsymmetric and of first order in the rotation per step, and
-//! the geometric stiffness of compression. Only the bending term can make the matrix indefinite; that of T1 is positive.
+//! sigma is the mean axial stress. Left out are `B^T A (B(d1) - B)`, which is unsymmetric and of
+//! first order in the rotation per step, and the geometric stiffness of compression. Only the
+//! bending term can make the matrix indefinite; that of T1 is positive.
 //!
-//! sigma is the stress of the last linear solve, and before the first the stress in the middle of the step before: the strains of an
-//! iterate whose slopes have rotated are far from those of the solution.
+//! sigma is the stress of the last linear solve, and before the first the stress in the middle of
+//! the step before: the strains of an iterate whose slopes have rotated are far from those of the
+//! solution.
 
 use super::dispatch::dispatch_groups;
 use super::group::Group;
@@ -60,7 +64,8 @@ pub(crate) struct ElementLoss {
 }
 
 impl Elements {
-    /// Adds h times the discrete-gradient force to `out`, and overwrites the matrix by the mass matrix plus `b h^2` times the tangent.
+    /// Adds h times the discrete-gradient force to `out`, and overwrites the matrix by the mass
+    /// matrix plus `b h^2` times the tangent.
     pub fn add_discrete_gradient_and_matrix(
         &self,
         level: Level,
@@ -113,7 +118,8 @@ impl Elements {
         GramStep { table: &self.table, stiffness, step, middle: gram(&step.mean), rates, rate, across: 0.0 }
     }
 
-    /// Returns h times the negative discrete-gradient force of one element on its control vectors; the stiffness has the factor h.
+    /// Returns h times the negative discrete-gradient force of one element on its control vectors;
+    /// the stiffness has the factor h.
     #[inline(always)]
     pub fn discrete_gradient_of<T: Real, L: Load<T>>(
         &self,
@@ -126,8 +132,8 @@ impl Elements {
         self.element_force(effects, from, (step, stiffness, h)).0
     }
 
-    /// Returns h times the negative force on the control vectors, and h times numerical dissipation, dissipation by effects (times 1) and
-    /// strain energy.
+    /// Returns h times the negative force on the control vectors, and h times numerical
+    /// dissipation, dissipation by effects (times 1) and strain energy.
     #[inline(always)]
     fn element_force<T: Real, L: Load<T>>(
         &self,

@@ -1,7 +1,8 @@
-//! Elements that are evaluated together: how their numbers are gathered from the nodes, and forces and tangents added there.
+//! Elements that are evaluated together: how their numbers are gathered from the nodes, and forces
+//! and tangents added there.
 //!
-//! On x86-64 eight elements go together with AVX-512 and AVX2, and without them one by one; elsewhere eight with what the processor has.
-//! The result is the same: see [`Real`].
+//! On x86-64 eight elements go together with AVX-512 and AVX2, and without them one by one;
+//! elsewhere eight with what the processor has. The result is the same: see [`Real`].
 
 use super::Elements;
 use crate::Real;
@@ -20,7 +21,8 @@ pub(super) trait Group: Load<Self::Number> + Copy {
 
     /// Returns the group that begins at element `first`.
     fn at(self, first: usize) -> Self;
-    /// Gathers the control vectors from nodal coordinates, or their velocities from nodal velocities.
+    /// Gathers the control vectors from nodal coordinates, or their velocities from nodal
+    /// velocities.
     fn control(self, elements: &Elements, q: &[f64]) -> Control<Self::Number>;
     /// Adds negative forces on control vectors to forces on the nodes.
     fn add_force(self, elements: &Elements, g: &Control<Self::Number>, out: &mut [f64]);
@@ -36,7 +38,8 @@ pub(super) trait Group: Load<Self::Number> + Copy {
     fn add_to(self, elements: &Elements, value: Self::Number, sum: &mut f64);
 }
 
-/// Eight elements in lanes. Those beyond the last element have its second node at both ends; what they give is dropped.
+/// Eight elements in lanes. Those beyond the last element have its second node at both ends; what
+/// they give is dropped.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S> {
     pub simd: S,
@@ -77,7 +80,8 @@ impl<S: Simd> Group for Lanes<S> {
         d
     }
 
-    // The sum at a node stays in registers until it is complete: a load of what has just been stored in other parts waits for the store.
+    // The sum at a node stays in registers until it is complete: a load of what has just been
+    // stored in other parts waits for the store.
     #[inline(always)]
     fn add_force(self, elements: &Elements, g: &Control<f64x8<S>>, out: &mut [f64]) {
         let Lanes { first, .. } = self;
@@ -133,7 +137,8 @@ impl<S: Simd> Group for Lanes<S> {
 }
 
 impl<S: Simd> Lanes<S> {
-    /// Adds columns `C` (of the position) and `3 + C` (of the slope), one column of one element per vector of lanes.
+    /// Adds columns `C` (of the position) and `3 + C` (of the slope), one column of one element per
+    /// vector of lanes.
     #[inline(always)]
     fn add_columns<const C: usize>(
         self,
@@ -182,7 +187,8 @@ pub(super) struct Columns<T> {
 }
 
 impl<T: Real> Columns<T> {
-    /// Maps 3x3 blocks over control vectors to columns `C` and `3 + C` over nodes, and adds the mass.
+    /// Maps 3x3 blocks over control vectors to columns `C` and `3 + C` over nodes, and adds the
+    /// mass.
     #[inline(always)]
     pub fn new<const C: usize>([k00, k01, k02, k11, k12, k22]: &Blocks<T>, mass: &[T; 10], s: T) -> Self {
         let rr = [k11[0][C] * s * s, k11[1][C] * s * s, k11[2][C] * s * s];
@@ -222,7 +228,8 @@ fn lanes<S: Simd>(simd: S, n: &[&[f64; 6]; LANES + 1], i: usize) -> [f64x8<S>; 2
     [first, first.slide::<1>(<f64x8<S> as SimdBase<S>>::splat(simd, n[8][i]))]
 }
 
-/// Transposes six rows and two of zeros: three rounds of a perfect shuffle rotate the six address bits by three.
+/// Transposes six rows and two of zeros: three rounds of a perfect shuffle rotate the six address
+/// bits by three.
 #[inline(always)]
 fn transpose<S: Simd>(simd: S, m: [f64x8<S>; 6]) -> [f64x8<S>; LANES] {
     let zero = <f64x8<S> as SimdBase<S>>::splat(simd, 0.0);

@@ -2,8 +2,9 @@
 //!
 //! # Alternatives considered
 //!
-//! Eight elements in lanes with SSE2, four registers a number: the force alone in 0.55 of the time, forces with tangents and whole
-//! steps within a tenth; a third more of the compiler's memory for the whole crate.
+//! Eight elements in lanes with SSE2, four registers a number: the force alone in 0.55 of the time,
+//! forces with tangents and whole steps within a tenth; a third more of the compiler's memory for
+//! the whole crate.
 
 use super::Elements;
 use super::group::{Columns, Group, mass};

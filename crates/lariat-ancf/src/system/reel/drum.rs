@@ -2,22 +2,24 @@
 //!
 //! # Equation
 //!
-//! With the radius R, the axis a and the spins w of the drum and of the body that holds the eye, if one does, the rate of the reel and the torques on
-//! drum and holder are
+//! With the radius R, the axis a and the spins w of the drum and of the body that holds the eye, if
+//! one does, the rate of the reel and the torques on drum and holder are
 //!
 //! ```text
 //! l' = R a.(w - w_h)        R a T        -R a T        T = F - m l''
 //! ```
 //!
-//! F is the [pull](super::work), m the mass of the stock on the drum and what else turns with the rate. Over a step of the discrete gradient
-//! `D l = h R a_m.(w^ - w_h^)` with the means of the [bodies](crate::island::RigidBody) and the normed mean of the axis, so what the cable gives the
-//! bodies take to rounding. The rate at the beginning of a step is that of the spins; that at the end of the one before differs from it
-//! by second differences, and the momentum of the element goes on from that.
+//! F is the [pull](super::work), m the mass of the stock on the drum and what else turns with the
+//! rate. Over a step of the discrete gradient `D l = h R a_m.(w^ - w_h^)` with the means of the
+//! [bodies](crate::island::RigidBody) and the normed mean of the axis, so what the cable gives the
+//! bodies take to rounding. The rate at the beginning of a step is that of the spins; that at the
+//! end of the one before differs from it by second differences, and the momentum of the element
+//! goes on from that.
 //!
 //! # Solution
 //!
-//! The acceleration a of the length follows from the bodies. In the linear equations of a Newton iteration it and T are two unknowns with columns of
-//! their own, eliminated together:
+//! The acceleration a of the length follows from the bodies. In the linear equations of a Newton
+//! iteration it and T are two unknowns with columns of their own, eliminated together:
 //!
 //! ```text
 //! x = x_0 - y da - z dT        da = s.x        T + dT = F(x, da) - m l''
@@ -27,8 +29,9 @@
 //!
 //! # Validity
 //!
-//! One layer: the radius is constant. The stock has inertia against the rate alone, no angular momentum with the holder. The moment of the cable about the
-//! drum acts through its bearing: the force on the holder is at the eye.
+//! One layer: the radius is constant. The stock has inertia against the rate alone, no angular
+//! momentum with the holder. The moment of the cable about the drum acts through its bearing: the
+//! force on the holder is at the eye.
 //!
 //! # Alternatives considered
 //!
@@ -93,7 +96,8 @@ impl Winch {
         }
     }
 
-    /// Returns s.x: the increment of the acceleration by increments of the bodies over a step of `h` (s).
+    /// Returns s.x: the increment of the acceleration by increments of the bodies over a step of
+    /// `h` (s).
     pub(super) fn turned(&self, rows: &[f64], h: f64) -> f64 {
         let along = |body: usize| (0..3).map(|x| self.arm[x] * rows[6 * body + 3 + x]).sum::<f64>();
         2.0 * BETA / h * self.signs().map(|(body, sign)| sign * along(body)).sum::<f64>()

@@ -8,8 +8,9 @@
 //! v = S e' + l' w = S (e' + l' e_w)        e_w = (0, 0, -t, -r'') at the eye
 //! ```
 //!
-//! An effect that is given the nodal velocities `e' + l' e_w` acts on the velocity of the material. With its force f per length and
-//! `F = int S^T f dy`, virtual work `int f . (S de + w dl) dy` says how it acts on the length, and what its power is:
+//! An effect that is given the nodal velocities `e' + l' e_w` acts on the velocity of the material.
+//! With its force f per length and `F = int S^T f dy`, virtual work `int f . (S de + w dl) dy` says
+//! how it acts on the length, and what its power is:
 //!
 //! ```text
 //! Q = e_w . F        P = F . (e' + l' e_w) = int f . v dy        B becomes B - Q
@@ -17,12 +18,14 @@
 //!
 //! # Validity
 //!
-//! Exact for the discretised cable, with the Gauss points of the effect. Stock is neither dragged nor loaded. Added mass is refused: it acts
-//! in all directions alike, and material that comes out along itself would have to set fluid in motion.
+//! Exact for the discretised cable, with the Gauss points of the effect. Stock is neither dragged
+//! nor loaded. Added mass is refused: it acts in all directions alike, and material that comes out
+//! along itself would have to set fluid in motion.
 //!
 //! # References
 //!
-//! Own derivation, checked against the power of the force along the path of its points (tests/reels/fluid.rs).
+//! Own derivation, checked against the power of the force along the path of its points
+//! (tests/reels/fluid.rs).
 
 use super::{FeedElement, Feeds};
 use crate::dual::{Dual, constant};
@@ -63,7 +66,8 @@ impl FeedElement {
 }
 
 impl Feeds {
-    /// Returns an evaluation with velocities as internal damping sees them, and one with those of the material.
+    /// Returns an evaluation with velocities as internal damping sees them, and one with those of
+    /// the material.
     pub fn velocities<'a>(&'a mut self, at: ForceInput<'a>) -> [ForceInput<'a>; 2] {
         if self.list.is_empty() || at.v.is_empty() {
             return [at; 2];
@@ -80,8 +84,9 @@ impl Feeds {
         [strain, material].map(|v| ForceInput { v, ..at })
     }
 
-    /// Makes of the mean velocities of a step of the discrete gradient those of the material; its lengths are those of the present iterate
-    /// from now on if the equations are made linear about it.
+    /// Makes of the mean velocities of a step of the discrete gradient those of the material; its
+    /// lengths are those of the present iterate from now on if the equations are made linear about
+    /// it.
     pub fn add_drift_over_step(&mut self, state: &State, b: &mut StepVectors, linearise: bool) {
         let [middle, velocity, middle_before, velocity_before] = &mut b.means;
         for feed in &mut self.list {
@@ -95,15 +100,16 @@ impl Feeds {
         }
     }
 
-    /// Notes the forces on the lengths of mean forces on the nodes over a step of the discrete gradient from `time` of length `h` (s), in
-    /// whose middle the coordinates are `middle`.
+    /// Notes the forces on the lengths of mean forces on the nodes over a step of the discrete
+    /// gradient from `time` of length `h` (s), in whose middle the coordinates are `middle`.
     pub fn note_point_forces(&mut self, (time, h): (f64, f64), middle: &[f64], force: &[f64]) {
         for feed in &mut self.list {
             feed.of_points = feed.on_length(feed.over(time, h).0.length, middle, force);
         }
     }
 
-    /// Returns the work in J that constant forces on the nodes do through the changes of lengths in a step of the discrete gradient.
+    /// Returns the work in J that constant forces on the nodes do through the changes of lengths in
+    /// a step of the discrete gradient.
     pub fn work_on_lengths(&self, state: &State, b: &StepVectors, force: &[f64]) -> f64 {
         let work = |feed: &FeedElement| {
             let mean = feed.over(state.time, b.h).0;
@@ -114,8 +120,9 @@ impl Feeds {
 }
 
 impl System {
-    /// Returns the force on the length in N of effects at Gauss points, at the coordinates and velocities of an element at an eye; the lengths
-    /// must be [set](System::set_feeds) to `time` (s).
+    /// Returns the force on the length in N of effects at Gauss points, at the coordinates and
+    /// velocities of an element at an eye; the lengths must be [set](System::set_feeds) to `time`
+    /// (s).
     pub(super) fn points_on_length(
         &self,
         model: &Model,
@@ -132,7 +139,8 @@ impl System {
         dot(&drift, &self.points_of_feed(model, feed, time, q, &material).map(|f| f.value))
     }
 
-    /// Returns the forces in N of effects at Gauss points on the coordinates of an element at an eye, at these and the velocities of the material.
+    /// Returns the forces in N of effects at Gauss points on the coordinates of an element at an
+    /// eye, at these and the velocities of the material.
     pub(super) fn points_of_feed(
         &self,
         model: &Model,
@@ -168,8 +176,9 @@ mod tests {
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
-    /// The generalised forces of drag, times the rates of all coordinates and lengths, are the power of the force per length on the
-    /// particles, at random states of a cable with a reel at each end.
+    /// The generalised forces of drag, times the rates of all coordinates and lengths, are the
+    /// power of the force per length on the particles, at random states of a cable with a reel at
+    /// each end.
     ///
     /// *Source.* Morison's formula at the Gauss points, and the velocity of the particles by
     /// [`feed_weights`], which is checked against differences in time.

@@ -11,8 +11,8 @@ use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
 use crate::reel::Feed;
 
-/// The impulse of the inertia of an element at an eye over a step by the coordinates at its beginning, their change, velocities there, and
-/// their change.
+/// The impulse of the inertia of an element at an eye over a step by the coordinates at its
+/// beginning, their change, velocities there, and their change.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Impulse {
     /// Time and length of the step in s.
@@ -33,7 +33,8 @@ pub(crate) struct FeedElement {
     pub(super) weighed: f64,
     /// Lengths and stock in m to which the equations are set; `None` if they are not set.
     pub(super) set: Option<[f64; 4]>,
-    /// Force of the loop over the elements on the eye in the last iterate of the discrete gradient, in N.
+    /// Force of the loop over the elements on the eye in the last iterate of the discrete gradient,
+    /// in N.
     pub(super) eye_force: [f64; 3],
     /// Rate in m/s with which the last step ended, where this one begins with that of a drum.
     pub left_rate: Option<f64>,
@@ -45,13 +46,16 @@ pub(crate) struct FeedElement {
     pub kind: Feed,
     /// What drives it, if its rate is an unknown.
     pub law: Option<Law>,
-    /// Length in m that a reel with a motor can take in beside this element, with the revision of the cable of which that is.
+    /// Length in m that a reel with a motor can take in beside this element, with the revision of
+    /// the cable of which that is.
     pub beside: Option<(u64, f64)>,
     /// Acceleration of the iterate about which the equations of a step are linear.
     pub(super) linearised: f64,
-    /// Force in N of effects at Gauss points on the length, in the last iterate of the discrete gradient.
+    /// Force in N of effects at Gauss points on the length, in the last iterate of the discrete
+    /// gradient.
     pub(super) of_points: f64,
-    /// Forces on the length in an iterate of the discrete gradient: of a reel with a motor in the last one.
+    /// Forces on the length in an iterate of the discrete gradient: of a reel with a motor in the
+    /// last one.
     pub(super) on_length: OnLength,
     /// Mean pull of the winch over the last step of the discrete gradient in N.
     pub pull: Option<f64>,
@@ -76,7 +80,8 @@ pub(crate) enum Source {
 pub(crate) struct OnLength {
     /// All: B.
     pub(super) force: f64,
-    /// Strain energies in J, axial and bending, at the beginning of the step, once they are known, and at its end.
+    /// Strain energies in J, axial and bending, at the beginning of the step, once they are known,
+    /// and at its end.
     pub(super) begin: Option<(f64, f64)>,
     pub(super) end: (f64, f64),
 }
@@ -116,14 +121,15 @@ impl FeedElement {
         }
     }
 
-    /// Returns the length in m of the stock that rides with the body at the eye, when the element has this length.
+    /// Returns the length in m of the stock that rides with the body at the eye, when the element
+    /// has this length.
     #[inline(always)]
     pub(super) fn stock<T: Real>(&self, length: T) -> T {
         if let Source::Stock(both) = self.source { length.splat(both) - length } else { length.splat(0.0) }
     }
 
-    /// Returns whether it stands, did so in the last step, and is not driven by an unknown force: it is then an element like others, if no
-    /// stock rides at the eye.
+    /// Returns whether it stands, did so in the last step, and is not driven by an unknown force:
+    /// it is then an element like others, if no stock rides at the eye.
     pub(super) fn stands(&self) -> bool {
         let Extent { length, rate, acceleration } = self.extent;
         let alone = self.law.is_none() && self.source == Source::Outside;

@@ -2,20 +2,24 @@
 //!
 //! # Equation
 //!
-//! The acceleration a of the length over a step of the discrete gradient is unknown, `l' = l'0 + a t`. With F the
-//! [pull](super::work) of the winch, m the inertia of the wheel and of the stock on it, and T the force of the motor,
+//! The acceleration a of the length over a step of the discrete gradient is unknown, `l' = l'0 + a
+//! t`. With F the [pull](super::work) of the winch, m the inertia of the wheel and of the stock on
+//! it, and T the force of the motor,
 //!
 //! ```text
 //! m a = F - T        T in T_max Sign(a - a_0)
 //! ```
 //!
-//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the rate asked for, linearly over a host step and within the limit on
-//! acceleration, whether the wheel follows or slips. At the end of the stock and at the least length the acceleration, and with it c, is bounded whatever T is. A slipping motor opposes the
-//! slip, so it only dissipates. A T_max that the host lowers is approached linearly over a host step.
+//! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the
+//! rate asked for, linearly over a host step and within the limit on acceleration, whether the
+//! wheel follows or slips. At the end of the stock and at the least length the acceleration, and
+//! with it c, is bounded whatever T is. A slipping motor opposes the slip, so it only dissipates. A
+//! T_max that the host lowers is approached linearly over a host step.
 //!
 //! # Solution
 //!
-//! With `A dv + c da = r` the linear equations of a Newton iteration and `T + row.dv + T_a da` the force,
+//! With `A dv + c da = r` the linear equations of a Newton iteration and `T + row.dv + T_a da` the
+//! force,
 //!
 //! ```text
 //! dv = A^-1 r - y da,  y = A^-1 c        T(da) = T + row.(A^-1 r) - S da        S = row.y - T_a
@@ -30,14 +34,15 @@
 //!
 //! # Validity
 //!
-//! The discrete gradient. Forces are means of a step. The linear solution must meet the law to 1e-3 of the forces of all motors, else the step is
-//! iterated further.
+//! The discrete gradient. Forces are means of a step. The linear solution must meet the law to 1e-3
+//! of the forces of all motors, else the step is iterated further.
 //!
 //! # Alternatives considered
 //!
-//! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other methods: the reel would be one more
-//! coordinate of every integrator. A limit on acceleration that begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led back
-//! so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
+//! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other
+//! methods: the reel would be one more coordinate of every integrator. A limit on acceleration that
+//! begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led
+//! back so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
 
 use super::graph::{Bound, Graph};
 use crate::element::variable_length::Extent;
@@ -52,14 +57,16 @@ pub(crate) struct Motor {
     pub limits: [f64; 2],
     /// Length in s over which a lowered limit is approached.
     pub duration: f64,
-    /// What is left in s of the host step, over which the commanded rate approaches what is asked for.
+    /// What is left in s of the host step, over which the commanded rate approaches what is asked
+    /// for.
     pub host: f64,
     /// Inertia of the wheel in kg.
     pub wheel: f64,
     /// Rate in m/s asked for, and largest acceleration of the commanded rate to it in m/s^2.
     pub asked: f64,
     pub acceleration: f64,
-    /// What it was left in; `None` where the rate is not that of a motor, and the commanded one begins every step at it.
+    /// What it was left in; `None` where the rate is not that of a motor, and the commanded one
+    /// begins every step at it.
     pub before: Option<MotorState>,
     /// Least and largest length in m that the element may have.
     pub bounds: [f64; 2],
@@ -74,14 +81,17 @@ pub(crate) struct MotorState {
     pub limit: f64,
     /// Force in N over the last step.
     pub force: f64,
-    /// By how much that exceeds in N what the motor has at its end, where its largest force was lowered.
+    /// By how much that exceeds in N what the motor has at its end, where its largest force was
+    /// lowered.
     #[serde(default)]
     pub excess: f64,
 }
 
 impl MotorState {
-    /// Returns the largest force in N at the beginning of a host step that ends with this one: a smaller one is approached linearly from the force. At once, the rope
-    /// would let go twice the stretch that it must, since forces are means of steps, and a motor that then holds the rate keeps it so.
+    /// Returns the largest force in N at the beginning of a host step that ends with this one: a
+    /// smaller one is approached linearly from the force. At once, the rope would let go twice the
+    /// stretch that it must, since forces are means of steps, and a motor that then holds the rate
+    /// keeps it so.
     pub fn limit_before(&self, limit: f64) -> f64 {
         if limit < self.limit { self.force.abs().max(limit).min(self.limit) } else { limit }
     }
@@ -109,19 +119,21 @@ pub(crate) struct Law {
     pub(super) graph: Graph,
     /// Accelerations beyond which no iterate goes.
     pub(super) reach: [f64; 2],
-    /// Derivatives of the force of the motor by the velocity changes of the element, and by the acceleration.
+    /// Derivatives of the force of the motor by the velocity changes of the element, and by the
+    /// acceleration.
     pub(super) row: [f64; 12],
     pub(super) own: f64,
     /// Force of the motor in the last iterate, in N; at a sheave the pull.
     pub(super) force: f64,
 }
 
-/// Returns the least and the largest rate in m/s after a step of length `h` (s) from where a reel can still stop, by an acceleration, within what is `left` of
-/// the cable, in and out.
+/// Returns the least and the largest rate in m/s after a step of length `h` (s) from where a reel
+/// can still stop, by an acceleration, within what is `left` of the cable, in and out.
 ///
-/// A rate that is braked by a h in every step and to zero in the last one takes, over steps in which it is linear, the way
-/// `D((k + x) a h) = a h^2 (k^2/2 + k x + x/2)`, 0 <= x < 1. The largest rate r with `D(r) <= left - h (r_0 + r)/2` is followed by that of
-/// the next step, so the cable ends at the stop to rounding.
+/// A rate that is braked by a h in every step and to zero in the last one takes, over steps in
+/// which it is linear, the way `D((k + x) a h) = a h^2 (k^2/2 + k x + x/2)`, 0 <= x < 1. The
+/// largest rate r with `D(r) <= left - h (r_0 + r)/2` is followed by that of the next step, so the
+/// cable ends at the stop to rounding.
 pub(crate) fn rates(acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f64; 2] {
     let a = acceleration;
     // towards an end that is `left` away, at the present rate r towards it
@@ -173,7 +185,8 @@ impl Law {
         self.reach = REACH.map(|share| 2.0 * ((share - 1.0) * length - h * rate) / (h * h));
     }
 
-    /// Returns the acceleration that is nearest to one, within the stops and the reach of an iterate.
+    /// Returns the acceleration that is nearest to one, within the stops and the reach of an
+    /// iterate.
     pub(super) fn bounded(&self, acceleration: f64) -> f64 {
         self.graph.bounded(acceleration).max(self.reach[0]).min(self.reach[1])
     }

@@ -1,4 +1,5 @@
-//! What depends on the lengths of the elements at eyes: their stiffness, mass and weight, energies and momenta.
+//! What depends on the lengths of the elements at eyes: their stiffness, mass and weight, energies
+//! and momenta.
 
 use super::FeedElement;
 use super::feeds::control;
@@ -20,7 +21,8 @@ impl System {
         }
     }
 
-    /// Sets what depends on the lengths of the elements at eyes to those at the beginning of the host step.
+    /// Sets what depends on the lengths of the elements at eyes to those at the beginning of the
+    /// host step.
     pub fn set_feeds_at_start(&mut self, model: &Model) {
         for k in 0..self.feeds.list.len() {
             let length = self.feeds.list[k].extent.length;
@@ -28,8 +30,8 @@ impl System {
         }
     }
 
-    /// Sets the lengths of an element at an eye: that of its control vectors, that of axial stiffness and mass, and the inverse of that
-    /// of bending.
+    /// Sets the lengths of an element at an eye: that of its control vectors, that of axial
+    /// stiffness and mass, and the inverse of that of bending.
     pub(super) fn set_each_length(&mut self, model: &Model, k: usize, [shape, mean, inverse]: [f64; 3]) {
         let System { feeds, forces, mass, loads, .. } = self;
         let set = Some([shape, mean, inverse, feeds.list[k].stock(mean)]);
@@ -73,7 +75,8 @@ impl System {
         }
     }
 
-    /// Returns the strain energy in J of an element at an eye, axial and bending, at a length and control vectors.
+    /// Returns the strain energy in J of an element at an eye, axial and bending, at a length and
+    /// control vectors.
     pub(super) fn feed_energy(&self, model: &Model, feed: &FeedElement, d: &Control<f64>, length: f64) -> (f64, f64) {
         let stiffness = feed.stiffness(model, length);
         let elements = &self.forces.elements;
@@ -84,8 +87,9 @@ impl System {
         (own.0 + of_effects.0, own.1 + of_effects.1)
     }
 
-    /// Returns the forces in N that strains and internal damping exert on the length of an element at an eye: dU/dl at fixed coordinates,
-    /// and the power that damping loses by a rate of the length, over the rate.
+    /// Returns the forces in N that strains and internal damping exert on the length of an element
+    /// at an eye: dU/dl at fixed coordinates, and the power that damping loses by a rate of the
+    /// length, over the rate.
     pub(super) fn strain_length_force(
         &self,
         model: &Model,

@@ -7,19 +7,22 @@
 //! damping sees the rates of the control vectors, of which `d1 = 3 (r_j - r_i)/l` changes with l,
 //! too.
 //!
-//! In a step of the discrete gradient from l0 to l1 the strain energy is `U = l C_a u_a(g) + C_b u_b(g)/l`. With the means over the step
+//! In a step of the discrete gradient from l0 to l1 the strain energy is `U = l C_a u_a(g) + C_b
+//! u_b(g)/l`. With the means over the step
 //!
 //! ```text
 //! D d1 = 3 [D(r_j - r_i) (1/l)_m + (r_j - r_i)_m D(1/l)]      D U = f . D q + Y D l to rounding
 //! ```
 //!
-//! The loop over the elements keeps its form: it is given the eye where it would be on an element of the length l0 with the same control
-//! vectors, and its force is scaled by `l0 (1/l)_m`. Weight is that of the mean length. Inertia
-//! is the change of the momentum p = M v + l' G q over the step, from one length to the other ([`step`]), so its sum over a cable is the
-//! change of the cable's momentum, less what flows in with the material.
+//! The loop over the elements keeps its form: it is given the eye where it would be on an element
+//! of the length l0 with the same control vectors, and its force is scaled by `l0 (1/l)_m`. Weight
+//! is that of the mean length. Inertia is the change of the momentum p = M v + l' G q over the
+//! step, from one length to the other ([`step`]), so its sum over a cable is the change of the
+//! cable's momentum, less what flows in with the material.
 //!
-//! Where the eye is on a body that moves freely, the stock rides with it: as a mass point m at the eye, whose momentum and weight are
-//! those of the node there. What leaves the stock enters the element, so the momentum of cable, stock and body stays to rounding.
+//! Where the eye is on a body that moves freely, the stock rides with it: as a mass point m at the
+//! eye, whose momentum and weight are those of the node there. What leaves the stock enters the
+//! element, so the momentum of cable, stock and body stays to rounding.
 //!
 //! # Validity
 //!

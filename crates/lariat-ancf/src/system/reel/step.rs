@@ -17,8 +17,9 @@ use crate::system::StepVectors;
 type Iterates = [[f64; 3]; 3];
 
 impl Equations<'_> {
-    /// Sets the lengths of a step of the discrete gradient, and moves the eyes in its iterates to where they are on elements of the
-    /// lengths at the beginning; returns the true iterates by feed.
+    /// Sets the lengths of a step of the discrete gradient, and moves the eyes in its iterates to
+    /// where they are on elements of the lengths at the beginning; returns the true iterates by
+    /// feed.
     pub fn begin_feed_step(&mut self, state: &State, b: &mut StepVectors) -> [Iterates; 2] {
         let mut saved = [Iterates::default(); 2];
         for (k, saved) in (0..self.system.feeds.list.len()).zip(&mut saved) {
@@ -96,7 +97,8 @@ impl Equations<'_> {
 }
 
 impl Feeds {
-    /// Moves the eyes in the change of coordinates over the last step to where they would be on elements of the present lengths.
+    /// Moves the eyes in the change of coordinates over the last step to where they would be on
+    /// elements of the present lengths.
     pub fn shift_eyes_before(&self, q: &[f64], change: &mut [f64]) {
         for feed in &self.list {
             let [far, eye] = feed.side.nodes(q.len() / 6).map(|node| 6 * node);
@@ -109,7 +111,8 @@ impl Feeds {
     }
 }
 
-/// Coordinates and velocities of the element at an eye at the beginning of a step, and their changes.
+/// Coordinates and velocities of the element at an eye at the beginning of a step, and their
+/// changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepMotion {
     pub q: [[f64; 12]; 2],
@@ -160,9 +163,10 @@ fn table<T: Real>(entry: impl Fn(usize, usize) -> T) -> Table<T> {
 }
 
 impl FeedElement {
-    /// Returns the impulse of the inertia of the element over a step, `-D p + h l' (G^T v^ + l' K q_m)` and the momentum of the material that
-    /// enters at the eye; that of riding stock is a part of p, and what enters comes from it. Without `all` it is less the part
-    /// `-M_m D v`, which the mass matrix has.
+    /// Returns the impulse of the inertia of the element over a step, `-D p + h l' (G^T v^ + l' K
+    /// q_m)` and the momentum of the material that enters at the eye; that of riding stock is a
+    /// part of p, and what enters comes from it. Without `all` it is less the part `-M_m D v`,
+    /// which the mass matrix has.
     #[inline(always)]
     pub(super) fn impulse<T: Real>(
         &self,
@@ -200,8 +204,9 @@ impl FeedElement {
         ]
     }
 
-    /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the mass matrix, by the changes of velocity. With
-    /// riding stock or a sheave it is changed to a table whose symmetric part has the same sums over the rows of positions: one linear solve
+    /// Returns the negative derivatives of the [impulse](Self::impulse), without the part of the
+    /// mass matrix, by the changes of velocity. With riding stock or a sheave it is changed to a
+    /// table whose symmetric part has the same sums over the rows of positions: one linear solve
     /// then keeps the momentum.
     fn impulse_table(&self, model: &Model, impulse: &Impulse) -> Table {
         let (time, h) = impulse.step;

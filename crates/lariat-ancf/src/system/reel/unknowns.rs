@@ -1,9 +1,10 @@
-//! The unknown rates of a system of cables: of reels with a [motor](super::law) and of [sheaves](super::wheel).
+//! The unknown rates of a system of cables: of reels with a [motor](super::law) and of
+//! [sheaves](super::wheel).
 //!
 //! # Solution
 //!
-//! The forces of all are linear in the increments of all accelerations; the laws are met by projected Gauss-Seidel iteration, one reel,
-//! sheave or [drum](super::drum) after the other.
+//! The forces of all are linear in the increments of all accelerations; the laws are met by
+//! projected Gauss-Seidel iteration, one reel, sheave or [drum](super::drum) after the other.
 
 use super::Feeds;
 use super::drum::{Pair, Winch};
@@ -27,7 +28,8 @@ struct Unknown {
 pub(crate) struct Unknowns {
     /// Cable and feed of each.
     pub reels: Vec<(usize, usize)>,
-    /// By reel and cable, c and then y; by reel, the rows of bodies. Behind those of the reels, those of the drums.
+    /// By reel and cable, c and then y; by reel, the rows of bodies. Behind those of the reels,
+    /// those of the drums.
     pub columns: Vec<Vec<Vec<f64>>>,
     pub rows: Vec<Vec<f64>>,
     /// Sheaves, each with two of the reels.
@@ -45,7 +47,8 @@ pub(crate) struct Unknowns {
 }
 
 impl Unknowns {
-    /// Lists the unknowns of cables, each with its equations and the forces of its motors; where all of these stick, no rate is unknown.
+    /// Lists the unknowns of cables, each with its equations and the forces of its motors; where
+    /// all of these stick, no rate is unknown.
     pub fn begin<'a>(&mut self, cables: impl ExactSizeIterator<Item = &'a Feeds>) {
         self.reels.clear();
         let (count, mut stick) = (cables.len(), self.winches.is_empty());
@@ -74,7 +77,8 @@ impl Unknowns {
         }
     }
 
-    /// Computes what increments of the bodies turn the drums by: `rows` are those with all rates as they are.
+    /// Computes what increments of the bodies turn the drums by: `rows` are those with all rates as
+    /// they are.
     pub(super) fn turn_drums(&mut self, rows: &[f64], h: f64) {
         self.turned.clear();
         for winch in &self.winches {

@@ -12,29 +12,36 @@
 //! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the strain energy per length at the eye
 //! ```
 //!
-//! With stock that rides with the body at the eye, which is a part of the system, the power is `l' (B + 1/2 rho l'^2 f^2)`.
+//! With stock that rides with the body at the eye, which is a part of the system, the power is `l'
+//! (B + 1/2 rho l'^2 f^2)`.
 //!
-//! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion without loss; in a coil by an inelastic
-//! impact, so that a falling chain obeys `m g = d(m v)/dt`. Both differ from a drum while cable is paid out.
+//! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion
+//! without loss; in a coil by an inelastic impact, so that a falling chain obeys `m g = d(m v)/dt`.
+//! Both differ from a drum while cable is paid out.
 //!
 //! # References
 //!
-//! Cayley, Proc. R. Soc. 8 (1857) 506 (the coil); Irschik & Holl, Appl. Mech. Rev. 57 (2004) 145 (variable mass).
+//! Cayley, Proc. R. Soc. 8 (1857) 506 (the coil); Irschik & Holl, Appl. Mech. Rev. 57 (2004) 145
+//! (variable mass).
 //!
 //! # Validity
 //!
-//! The account of energy is exact for any step of the discrete gradient but for its kinetic part, of the second order; for other methods
-//! to the order of two points of Gauss, where the velocities at the ends of a step are those of the motion. Methods that leave modes ringing which
-//! the steps do not resolve, if they have no estimate of their error, as the midpoint rule, are refused with a reel by
-//! [`Error::ReelMethod`](crate::Error::ReelMethod).
+//! The account of energy is exact for any step of the discrete gradient but for its kinetic part,
+//! of the second order; for other methods to the order of two points of Gauss, where the velocities
+//! at the ends of a step are those of the motion. Methods that leave modes ringing which the steps
+//! do not resolve, if they have no estimate of their error, as the midpoint rule, are refused with
+//! a reel by [`Error::ReelMethod`](crate::Error::ReelMethod).
 //!
 //! # Alternatives considered
 //!
-//! The midpoint rule with an account that misses: where a rope of EA 1e6 N is taken in under 5 kN to its least length at 1/240 s, the account of the midpoint rule misses 1e-3 of the
-//! work, by the square of the step: its velocities at the ends of a step ring where modes are not resolved, and the cubic through them leaves
-//! the straight line, on which the rule moves, by as much as strains that rope by 5 % of its tension, to either side in turn. TR-BDF2 misses
-//! 1e-5, generalised-alpha 5e-5 with rho 0.5 and up to 1.6 % with others, by the same points. Strains on the line, and inertia at both ends
-//! with the mean acceleration: misses 3e-4 still. The middle alone misses up to a third of the work of a rope that is paid out.
+//! The midpoint rule with an account that misses: where a rope of EA 1e6 N is taken in under 5 kN
+//! to its least length at 1/240 s, the account of the midpoint rule misses 1e-3 of the work, by the
+//! square of the step: its velocities at the ends of a step ring where modes are not resolved, and
+//! the cubic through them leaves the straight line, on which the rule moves, by as much as strains
+//! that rope by 5 % of its tension, to either side in turn. TR-BDF2 misses 1e-5, generalised-alpha
+//! 5e-5 with rho 0.5 and up to 1.6 % with others, by the same points. Strains on the line, and
+//! inertia at both ends with the mean acceleration: misses 3e-4 still. The middle alone misses up
+//! to a third of the work of a rope that is paid out.
 
 use super::feeds::{OnLength, control};
 use super::step::StepMotion;
@@ -62,7 +69,8 @@ pub(crate) struct FeedForce {
 }
 
 impl System {
-    /// Returns pull and power of a winch at the coordinates, velocities and accelerations of its element.
+    /// Returns pull and power of a winch at the coordinates, velocities and accelerations of its
+    /// element.
     pub fn feed_force(&self, model: &Model, feed: &FeedElement, time: f64, motion: [&[f64; 12]; 3]) -> FeedForce {
         let extent = feed.at(time);
         let (element, weight) = (feed.with(model, extent), feed.weight(model));
@@ -80,8 +88,10 @@ impl System {
 }
 
 impl Equations<'_> {
-    /// Returns the work of winch and entering material over a step of a method with accelerations, by the two points of Gauss on
-    /// the cubics of velocity, and against internal damping by the mean velocity if that is [not resolved](crate::system::energy_balance); `range` is the cable's part of the states.
+    /// Returns the work of winch and entering material over a step of a method with accelerations,
+    /// by the two points of Gauss on the cubics of velocity, and against internal damping by the
+    /// mean velocity if that is [not resolved](crate::system::energy_balance); `range` is the
+    /// cable's part of the states.
     pub fn feed_work(
         &mut self,
         feed: &FeedElement,
@@ -133,7 +143,8 @@ impl Equations<'_> {
         OnLength { force: elastic + inertial - feed.of_points, begin: Some(begin), end }
     }
 
-    /// Returns what entering material brings in N beside the force on the length, in the mean of a step of the discrete gradient.
+    /// Returns what entering material brings in N beside the force on the length, in the mean of a
+    /// step of the discrete gradient.
     fn entering_in_step(&self, feed: &FeedElement, element: &VariableLength, [q, v, _]: &[[f64; 12]; 3]) -> f64 {
         let rate = element.extent.rate;
         match feed.source {
@@ -143,7 +154,8 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds the work of winches and entering material over a step of the discrete gradient, and notes its lengths for the next one.
+    /// Adds the work of winches and entering material over a step of the discrete gradient, and
+    /// notes its lengths for the next one.
     pub fn end_feeds_of_step(&mut self, state: &State, b: &StepVectors) {
         for k in 0..self.system.feeds.list.len() {
             let feed = &self.system.feeds.list[k];
@@ -189,8 +201,9 @@ impl FeedElement {
     }
 }
 
-/// Returns the mean force of strains on the length over a step: D U at fixed coordinates over D l, for `(1/l1 - 1/l0)/(l1 - l0) =
-/// -1/(l0 l1)`, from axial and bending energies at both ends and the product of mean chord and mean force on the eye.
+/// Returns the mean force of strains on the length over a step: D U at fixed coordinates over D l,
+/// for `(1/l1 - 1/l0)/(l1 - l0) = -1/(l0 l1)`, from axial and bending energies at both ends and the
+/// product of mean chord and mean force on the eye.
 fn strain_on_length([u0, u1]: [(f64, f64); 2], [l0, l1]: [f64; 2], of_eye: f64) -> f64 {
     0.5 * (u0.0 / l0 + u1.0 / l1) - (0.5 * (u0.1 * l0 + u1.1 * l1) - l0 * of_eye) / (l0 * l1)
 }
@@ -201,7 +214,8 @@ fn square_of_stretch<T: Real>(q: &[T; 12]) -> T {
     q[9] * q[9] + q[10] * q[10] + q[11] * q[11]
 }
 
-/// Returns what entering material brings beside the force on the length, in N: its kinetic energy and its weight at the eye.
+/// Returns what entering material brings beside the force on the length, in N: its kinetic energy
+/// and its weight at the eye.
 fn entering(element: &VariableLength, weight: &[f64; 3], q: &[f64; 12], v: &[f64; 12]) -> f64 {
     let Extent { rate, .. } = element.extent;
     let mut sum = 0.0;

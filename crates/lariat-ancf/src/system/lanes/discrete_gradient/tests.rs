@@ -30,7 +30,8 @@ const RULES: [&str; 12] = [
     "G10-10",
 ];
 
-/// Elements of different length and stiffness, so that a group of lanes and a part of one are filled.
+/// Elements of different length and stiffness, so that a group of lanes and a part of one are
+/// filled.
 fn cable(rule: &str, effects: Effects) -> Cable {
     let section = Section::from_stiffness(50.0, 0.3, 0.7).unwrap();
     Cable::builder()
@@ -81,8 +82,9 @@ fn store(system: &System, q: &[f64], change: &[f64]) -> f64 {
     system.forces.elements.add_discrete_gradient(system.level, None, step, &mut unused).numerical
 }
 
-/// The work of the discrete-gradient force over any step is the change of strain energy and store, and the losses, which are not negative: for every
-/// rule and effect, from small steps to steps that turn elements inside out.
+/// The work of the discrete-gradient force over any step is the change of strain energy and store,
+/// and the losses, which are not negative: for every rule and effect, from small steps to steps
+/// that turn elements inside out.
 ///
 /// *Source.* The energies by their own formulas. Bound: rounding of the largest term.
 #[test]
@@ -132,7 +134,8 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
     }
 }
 
-/// The force of a step sums to zero and, without numerical dissipation of bending and damping, has no moment about the mean configuration.
+/// The force of a step sums to zero and, without numerical dissipation of bending and damping, has
+/// no moment about the mean configuration.
 ///
 /// *Source.* Newton's third law, objectivity.
 #[test]
@@ -167,7 +170,8 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
     }
 }
 
-/// At rest, under a tension that is the same everywhere, the tangent is the derivative of the force by the change: that of a difference quotient.
+/// At rest, under a tension that is the same everywhere, the tangent is the derivative of the force
+/// by the change: that of a difference quotient.
 ///
 /// *Source.* Central differences, error 1e-8 of the largest entry.
 #[test]
@@ -180,7 +184,8 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             }
             let system = &mut cable(rule, of_cable.clone()).system;
             let n = 6 * (system.forces.elements.count() + 1);
-            // a helix of constant stretch would do; a stretched straight line has all terms but those of bending's own stress
+            // a helix of constant stretch would do; a stretched straight line has all terms but
+            // those of bending's own stress
             let q: Vec<f64> = (0..n)
                 .map(|i| {
                     let length =
