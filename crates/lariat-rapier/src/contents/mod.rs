@@ -4,18 +4,17 @@
 //! |---|---|
 //! | [`attachment`], [`gaps`] | a node attached to a body, and the gap between them so far |
 //! | [`junction`] | nodes that share one position |
-//! | [`sheave`], [`drum`] | what a cable runs over, and what it is wound on |
+//! | [`reel`] | what a cable runs over, and what it is wound on |
 //! | [`rules`] | what a cable may touch, and with which friction |
 //! | [`mark`] | the mark that a set leaves in its world |
 //! | [`table`] | a list whose indices stay |
 
 pub(crate) mod attachment;
-pub(crate) mod drum;
 pub(crate) mod gaps;
 pub(crate) mod junction;
 pub(crate) mod mark;
+pub(crate) mod reel;
 pub(crate) mod rules;
-pub(crate) mod sheave;
 pub(crate) mod table;
 
 use crate::body::record::Records;
@@ -23,7 +22,6 @@ use crate::convert;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use attachment::Attachment;
-use drum::Wound;
 use junction::Junction;
 use lariat_ancf::Cable;
 use lariat_ancf::coupling::Coupling;
@@ -31,9 +29,10 @@ use mark::WorldMark;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
+use reel::drum::Wound;
+use reel::sheave::Sheave;
 use rules::ContactRules;
 use serde::{Deserialize, Serialize};
-use sheave::Sheave;
 use table::Table;
 
 /// A cable in its set.

@@ -1,6 +1,7 @@
 //! Attaching cables to bodies and detaching them.
 
-use super::{drums, sheaves, world_mark};
+use super::reel::{drums, sheaves};
+use super::world_mark;
 use crate::contents::Contents;
 use crate::contents::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 use crate::contents::gaps::GapWatch;
@@ -118,7 +119,7 @@ pub(crate) fn end_lost(
         }
     }
     contents.records.retain_existing(world);
-    drums::end_lost(contents, &world.bodies)
+    drums::remove_where(contents, |wound| !world.bodies.contains(wound.drum.body))
 }
 
 /// Checks that a point of a cable can be attached to a point of a body, and returns the body.

@@ -5,15 +5,13 @@
 //! | [`attach`] | attaches cables to bodies and detaches them |
 //! | [`join`] | ties cables to each other and unties them |
 //! | [`remove`], [`part`], [`breaking`] | removes, cuts and breaks cables |
-//! | [`sheaves`], [`passing`], [`drums`] | what cables run over, and what they are wound on |
+//! | [`reel`] | what cables run over, and what they are wound on |
 //! | [`world_mark`] | the world that the attachments belong to |
 
 pub(crate) mod attach;
 pub(crate) mod breaking;
-pub(crate) mod drums;
 pub(crate) mod join;
 pub(crate) mod part;
-pub(crate) mod passing;
+pub(crate) mod reel;
 pub(crate) mod remove;
-pub(crate) mod sheaves;
 pub(crate) mod world_mark;

@@ -1,6 +1,6 @@
 //! Cutting cables.
 
-use super::{drums, sheaves};
+use super::reel;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::events::Event;
@@ -24,8 +24,7 @@ pub(crate) fn part(
     if let Some(slot) = contents.cables.get_mut(tail.0 as usize) {
         (slot.follows_gravity, slot.rules) = (follows_gravity, rules);
     }
-    sheaves::follow_cut(contents, cable, tail);
-    drums::follow_cut(contents, cable, tail);
+    reel::follow_cut(contents, cable, tail);
     let held = contents.attachments.values_mut().map(|a| (&mut a.cable, &mut a.arc_length));
     let tied = contents.junctions.values_mut().flat_map(|j| j.nodes.iter_mut().zip(&mut j.arc_lengths));
     for (of, s) in held.chain(tied.map(|((of, _), s)| (of, s))) {

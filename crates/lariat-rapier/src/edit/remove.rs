@@ -2,7 +2,7 @@
 
 use super::attach::detach;
 use super::join::leave;
-use super::{drums, sheaves};
+use super::reel;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
@@ -18,8 +18,7 @@ pub(crate) fn remove(contents: &mut Contents, world: &mut PhysicsWorld, cable: C
             detach(contents, world, AttachmentHandle(i as u32))?;
         }
     }
-    sheaves::remove_at(contents, cable, None)?;
-    drums::remove_of(contents, cable)?;
+    reel::remove_of(contents, cable)?;
     for i in 0..contents.junctions.len() {
         if contents.junctions.get(i).is_some_and(|j| j.nodes.iter().any(|(c, _)| *c == cable)) {
             leave(contents, JunctionHandle(i as u32), cable)?;

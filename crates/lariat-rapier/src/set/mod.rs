@@ -5,7 +5,7 @@
 //! | this one | making a set, adding, changing and removing cables, statics |
 //! | [`attach`] | attachments and junctions |
 //! | [`contact`] | what cables may touch |
-//! | [`wheels`], [`passing`] | drums and sheaves |
+//! | [`reel`] | drums and sheaves |
 //! | [`step`] | host steps |
 //! | [`read`] | events, totals and warnings |
 //!
@@ -13,11 +13,10 @@
 
 mod attach;
 mod contact;
-mod passing;
 mod read;
+mod reel;
 pub(crate) mod rope;
 mod step;
-mod wheels;
 
 use crate::contents::Contents;
 use crate::contents::attachment::AttachmentKind;

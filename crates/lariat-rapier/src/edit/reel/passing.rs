@@ -1,11 +1,11 @@
 //! Sheaves along one cable, which is cut at each of them and runs on.
 
-use super::attach::{attach, check};
-use super::part::part;
 use super::sheaves;
 use crate::contents::Contents;
 use crate::contents::attachment::{AttachmentKind, AttachmentOptions, Gap};
-use crate::contents::sheave::SheaveOptions;
+use crate::contents::reel::sheave::SheaveOptions;
+use crate::edit::attach::{attach, check};
+use crate::edit::part::part;
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
 use ::nalgebra::Vector3;

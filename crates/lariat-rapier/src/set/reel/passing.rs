@@ -1,12 +1,12 @@
 //! Sheaves along one cable: it runs over them and stays one cable for who counts along it; between
 //! them it is computed in parts.
 
-use super::CableSet;
-use crate::contents::sheave::{Sheave, SheaveOptions};
+use crate::contents::reel::sheave::{Sheave, SheaveOptions};
 use crate::convert::vector;
-use crate::edit::passing;
+use crate::edit::reel::passing;
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
+use crate::set::CableSet;
 use lariat_ancf::At;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;

@@ -1,10 +1,9 @@
 //! Ending drums, and keeping them with the end of a cable that is cut.
 
 use crate::contents::Contents;
-use crate::contents::drum::Wound;
+use crate::contents::reel::drum::Wound;
 use crate::error::Error;
 use crate::handle::CableHandle;
-use rapier::dynamics::RigidBodySet;
 
 /// Ends the drums that `ends` names, and the reels on them.
 pub(crate) fn remove_where(contents: &mut Contents, mut ends: impl FnMut(&Wound) -> bool) -> Result<(), Error> {
@@ -19,16 +18,6 @@ pub(crate) fn remove_where(contents: &mut Contents, mut ends: impl FnMut(&Wound)
         }
     }
     Ok(())
-}
-
-/// Ends the drums of a cable that is removed.
-pub(crate) fn remove_of(contents: &mut Contents, cable: CableHandle) -> Result<(), Error> {
-    remove_where(contents, |wound| wound.cable == cable)
-}
-
-/// Ends the drums whose bodies were removed from the world.
-pub(crate) fn end_lost(contents: &mut Contents, bodies: &RigidBodySet) -> Result<(), Error> {
-    remove_where(contents, |wound| !bodies.contains(wound.drum.body))
 }
 
 /// Gives the drum at the end of a cable that was cut to the part behind the cut.

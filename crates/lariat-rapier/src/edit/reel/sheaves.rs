@@ -1,7 +1,7 @@
 //! Adding and ending sheaves, and keeping them with the end of a cable that is cut.
 
 use crate::contents::Contents;
-use crate::contents::sheave::{Sheave, SheaveOptions};
+use crate::contents::reel::sheave::{Sheave, SheaveOptions};
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
 use lariat_ancf::island::Sheave as Wheel;

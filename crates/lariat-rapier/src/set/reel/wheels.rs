@@ -1,11 +1,11 @@
 //! Drums and sheaves of a set.
 
-use super::CableSet;
-use crate::contents::drum::{Drum, Wound};
-use crate::contents::sheave::{Sheave, SheaveOptions};
-use crate::edit::{drums, sheaves};
+use crate::contents::reel::drum::{Drum, Wound};
+use crate::contents::reel::sheave::{Sheave, SheaveOptions};
+use crate::edit::reel::{drums, sheaves};
 use crate::error::Error;
 use crate::handle::{CableHandle, SheaveHandle};
+use crate::set::CableSet;
 use lariat_ancf::{At, Reel};
 use rapier::dynamics::RigidBodySet;
 

@@ -1,0 +1,4 @@
+//! What a cable runs over, and what it is wound on.
+
+pub(crate) mod drum;
+pub(crate) mod sheave;

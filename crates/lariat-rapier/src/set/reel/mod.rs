@@ -1,0 +1,4 @@
+//! Sheaves between cables and along one, and drums.
+
+mod passing;
+mod wheels;
