@@ -5,12 +5,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - A copy of the kernels for SSE4.2 too: its instructions on `f64` are those of SSE2 but for
-//!   rounding and selection, so it costs time to compile and saves none.
-//! - A loop over elements for each bending rule, which is compiled at each level: the rules are
-//!   chosen within the loop, so that they add to the code and do not multiply it.
-//! - Closures and `map` within kernels: the compiler does not inline them into a function of
-//!   another level, so each call goes through memory.
+//! What was tried, and what it gave: docs/decisions/elements.md.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 

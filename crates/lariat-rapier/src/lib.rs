@@ -109,12 +109,7 @@
 //!   Kalaba, A new perspective on constrained motion, 1992.
 //!
 //! # Alternatives considered
-//! Measured and rejected: the force of the last step applied to the body (explicit staggering),
-//! which is unstable for light bodies and steel; the impulses of cable and free body, which
-//! contacts undo; prescribing the motion of the body to the cable and returning the whole
-//! difference, which is unstable; motors alone, which leave gaps in jams; rolling Rapier back and
-//! iterating, at four times the cost and still failing in jams. Motors on a body that a joint holds
-//! to the world: a gap of 1e-2 m at 5 kN, 4e-6 m without.
+//! What was tried, and what it gave: docs/decisions/rapier.md.
 
 mod body;
 mod contact;

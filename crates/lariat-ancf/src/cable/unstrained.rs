@@ -35,10 +35,7 @@
 //!
 //! # Alternatives considered
 //!
-//! A corner rounded by an arc of the right length: nodes fall on the arc or beside it, and elements
-//! that begin on it and end on the leg are strained still. Mean and linear part of the strain to
-//! zero by the least change, without the rest: a corner then bends the two elements beside it,
-//! which hold up to 5e-5 EA L.
+//! What was tried, and what it gave: docs/decisions/elements.md.
 
 use super::layout::Laid;
 use crate::element::shape;

@@ -52,12 +52,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Gauss's three points: an end or a node sinks in by up to a ninth of an element. Lobatto's four: the line is 0.48 of the radius deep in a ball of 20 radii that is
-//! caught, with five 0.25, with Gauss's three 0.36. The bound of friction of the last step alone: tensions around a drum lose all meaning beyond `mu phi = 5`. Impulses on the Delassus operator (its cost, and divergence on thin cables), barriers with smoothed friction (creep), the secant
-//! instead of the end-point derivative (rings), Hunt-Crossley damping (no gain).
-//!
-//! Restitution by a force that unloads along `e^2 W`: a contact of k = 1e9 N/m^2 lasts 40 us, and a step of 4 ms that begins and ends at the
-//! surface has no W to return, whatever its law.
+//! What was tried, and what it gave: docs/decisions/contact.md.
 
 mod border;
 mod evaluation;

@@ -54,25 +54,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - The scalar rate for all curvatures (e = 0): a dissipation of g and g' alone must vanish at the
-//!   straight cable, because any transverse velocity of a straight cable is the limit of a fast
-//!   spin of a slightly bent one. The force is then EI tau times the rate along a direction that
-//!   rotates arbitrarily fast where the curvature is small, and the step has to follow: 2 m of 10
-//!   mm steel rope in 200 elements, released from horizontal in a breeze, tau = 1 ms, took 4111
-//!   steps for the first 1/60 s, against 39 for 30/60 s.
-//! - The vector rate for all curvatures: smooth, and a spinning bent cable heats up.
-//! - Rayleigh damping by the mass matrix: it damps falling.
-//! - In steps of the discrete gradient the tangent without the stiffness across n: where an element
-//!   bends, the iteration swings between two iterates. Ropes that fall on a rod took up to 1829
-//!   iterations in a host step, now 78; without damping of bending 158. Ropes that fall on their
-//!   ends into heaps up to 4683, now 913, and thrown and hanging ones without contact 2419,
-//!   now 109. All of `m w_gg`, with what the stretch has of it: not definite, and up to 15 % more
-//!   iterations. That of |m|: a third more without contact. The rate of the vector where an element
-//!   straightens, in the force itself: 96 in the heap, but angular momentum is not kept, and 2.5 %
-//!   more is dissipated.
-//! - The exact, unsymmetric tangent in Newton's iteration: fewer iterations where drag or axial
-//!   damping dominate the motion (up to 45 % at fidelity game), 0 to 10 % fewer elsewhere, while it
-//!   stores nine blocks for six per element and is factored by L U in place of L D L^T.
+//! What was tried, and what it gave: docs/decisions/elements.md.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::curvature::{self, Point, Squared};

@@ -33,12 +33,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - Error per unit step alone: a mode whose amplitude is a share h/H of the tolerance is followed
-//!   in phase. A cable of 50 elements that is released straight then follows all its modes, in 30
-//!   to 70 times the steps.
-//! - Error per step alone: errors of many steps of a slow motion add up.
-//! - A filter of fast modes: that of [`dirk`](super::dirk) does not touch modes with h omega about
-//!   1, where these errors are; a longer one needs a factorisation of its own.
+//! What was tried, and what it gave: docs/decisions/integration.md.
 
 use super::dynamics::Dynamics;
 use crate::scales::integrate::{

@@ -20,11 +20,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - A line search on the residual: it stagnates on thin cables, because the residual of the stiff
-//!   axial modes hides the progress of the bending modes.
-//! - One tangent for a whole step without a test of its contraction: it diverges on steel, and
-//!   steps shrink.
-//! - Tangents kept across host steps: a restored snapshot would not replay bitwise.
+//! What was tried, and what it gave: docs/decisions/integration.md.
 
 use crate::error::StepFailure;
 use crate::scales::integrate::{FORCE_TOLERANCE, MAX_CHORD_CONTRACTION, MAX_FOR_FORCES, MAX_ITERATIONS, MAX_ROTATION};

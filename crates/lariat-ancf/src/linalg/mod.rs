@@ -25,10 +25,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - A general sparse or banded Cholesky factorisation for positive definite matrices: columns of
-//!   six lanes fill a register, those of a general band do not.
-//! - Cyclic reduction: two to three times the arithmetic.
-//! - Bunch-Kaufman pivoting for indefinite matrices: its symmetric interchanges destroy the band.
+//! What was tried, and what it gave: docs/decisions/solvers.md.
 
 mod banded;
 mod block;

@@ -23,12 +23,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Substitution with the scalar factor of the whole matrix: its critical path has six dependent
-//! steps per node and direction; here it is one 6x6 product, and the S_i^-1 of different nodes
-//! overlap.
-//!
-//! A right-hand side that begins with zeros stays zero down to its first entry: this part of the
-//! sweep inwards is left out, with the same bits (S_i^-1 0 = 0 and 0 - G_i 0 = 0).
+//! What was tried, and what it gave: docs/decisions/solvers.md.
 
 use super::lanes::{after, before, columns_times, load, load_block, load_six, splat, store_six, transpose_dots};
 use super::twisted::Node;

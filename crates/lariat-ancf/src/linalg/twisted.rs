@@ -26,11 +26,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - Cholesky with square roots: a longer chain per pivot.
-//! - One-ended elimination: half the instruction-level parallelism.
-//! - Explicit S_i^-1: its residual grows with the condition of S_i.
-//! - Broadcasts of register lanes: they need the port that multiplies at 512 bits. The columns pass
-//!   through memory instead, and `black_box` keeps the compiler from removing that.
+//! What was tried, and what it gave: docs/decisions/solvers.md.
 
 use super::block::{Block, BlockTridiagonal};
 use super::lanes::{Columns, after, diagonal, load_block, load_transposed, splat};

@@ -7,24 +7,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Equal cables in SIMD lanes, one cable per lane, eight at a time, each lane with the bits of its
-//! cable alone and at an iteration of its own. On the example `fleet` this took 1.5 to 1.7 times
-//! less processor time with AVX-512 (1.9 times for cables that swing calmly, 1.25 times for thrown
-//! steel), 1.3 times with AVX2, and 1.05 times with SSE2: the kernels of the elements fill the
-//! lanes of a cable alone as well, and are half of its time. That is less than the twofold that
-//! would be worth a second copy of the factorisation.
-//!
-//! Fewer factorisations, on the same example, when its cables began strained at corners, with the
-//! rule `projected-3`, where a step takes 1.65 of them and 2.9 iterations because the first leaves
-//! a third of the impulses unbalanced (median): keeping the factors where the first iterate makes
-//! energy takes 1.46 and as much time, in more iterations; a first iterate by the acceleration
-//! extrapolated with a half or all of its last change takes 1.64 and 1.76.
-//!
-//! More impulse unbalanced than 1 %: with 2, 5, 10, 30 % and any a step takes 2.7, 2.4, 2.3, 1.9
-//! and 1.5 iterations, and 2.4, 2.2, 2.1, 1.6 and 1.2 with `projected-T1` (2.7 at 1 %). Errors of
-//! 40 thrown cables stay the same up to any share, but a steady error of tension stays too, as on a
-//! rotor. New factors where those at hand leave more than 30 % of the imbalance in place of 10 %: 4
-//! % fewer factorisations; 60 %: 8 %, more iterations.
+//! What was tried, and what it gave: docs/decisions/integration.md.
 
 use crate::cable::Cable;
 use crate::error::Error;

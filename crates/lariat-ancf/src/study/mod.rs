@@ -51,14 +51,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - The difference divided by `f^2.5 - 1`, or an order fitted to two differences: claims 0.6 of
-//!   the true error where waves accumulate it.
-//! - Runs at `8 tau` and `tau` alone: where the host step limits the steps of both they agree,
-//!   whatever their error, and claims were down to 0.4 of the true error.
-//! - Mesh and tolerance refined together: loose tolerances saturate, and then hide each other.
-//! - Equilibria that start from the coarser shape: cheaper, but two meshes that find a shape on
-//!   their own are evidence that it is one.
-//! - The mesh indicator as a bound: it does not see what waves accumulate.
+//! What was tried, and what it gave: docs/decisions/study.md.
 
 mod claim;
 mod order;

@@ -36,11 +36,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - The order 2.5 throughout: where the order is 1, the elements grow by so little that a study
-//!   takes three runs more.
-//! - The second order for all equilibria whose distances and indicator show it: of 280 random ones,
-//!   three that are held between the ends were claimed at down to 0.14 of the true error; with the
-//!   first order at 0.86.
+//! What was tried, and what it gave: docs/decisions/study.md.
 
 use crate::scales::study::{AIM, ASSUMED, FACTOR, LEAST, ORDERS};
 

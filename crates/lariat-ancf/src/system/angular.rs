@@ -41,10 +41,7 @@
 //!
 //! # Alternatives considered
 //!
-//! The change of `a h v x M D v` taken into the equations, as a force: it is of the velocities at
-//! the end, and its energy is not that of the law. No correction: winches that tumble lose up to
-//! 2e-3 of the angular momentum at 1/240 s. More of the energy that the method took than that of
-//! the rigid rotation: where some is owed, there is no more.
+//! What was tried, and what it gave: docs/decisions/elements.md.
 
 use super::{Equations, System, dot, solve_semidefinite};
 use crate::scales::integrate::ALPHA;

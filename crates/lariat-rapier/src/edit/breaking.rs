@@ -6,11 +6,7 @@
 //! left of the host step more.
 //!
 //! # Alternatives considered
-//! Parts that go on from the time of the break. Rapier moves a body with one velocity in its step,
-//! so that step would have to end there: the prediction of an island that breaks would be reverted,
-//! as that of a mechanism that turns is, and made anew up to the time of the break, and islands,
-//! attachments and contacts found anew before the rest. All islands of the world would take the
-//! additional Rapier step, and a rope that frays would divide a host step as often as it breaks.
+//! What was tried, and what it gave: docs/decisions/rapier.md.
 
 use super::part::part;
 use crate::contents::Contents;

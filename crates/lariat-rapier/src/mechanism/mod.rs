@@ -23,20 +23,7 @@
 //! Khatib 1987, the operational space inertia.
 //!
 //! # Alternatives considered
-//! W, R and a of the configuration at the start of the step: of first order. Random booms of 0.2 to
-//! 3 m with loads on ropes, fidelity engineering: 12 of 157 are more than 5 % off without a
-//! warning, 6 with that of the middle, fewer with steps that are divided where velocities change
-//! ([`substepping`](crate::step::substepping)). The velocities of a chain of impulse joints that
-//! nothing else touches replaced by the predicted ones after Rapier's step: gaps of twice the
-//! length.
-//!
-//! The body as a free one, with the inertia of the others as a part of the reaction estimate: the
-//! estimate lags, which adds energy where the step resolves the vibration of the cable (an arm of
-//! three links of 1 kg on a soft rope oscillates by 130 N at 1/240 s). Each body with the inertia
-//! of its mechanism, and the cables on the mechanism's other bodies as a part of the estimate: the
-//! forces of two ropes on an arm ripple by 0.39 of their sum. Rapier's softness of joints in the
-//! matrix: the estimate along held axes then feeds on itself. No estimate where a mechanism touches
-//! nothing: motors are then not predicted.
+//! What was tried, and what it gave: docs/decisions/rapier.md.
 
 mod constraints;
 mod find;

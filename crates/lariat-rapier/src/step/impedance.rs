@@ -23,10 +23,7 @@
 //! contact.rs); what is read at the body does not.
 //!
 //! # Alternatives considered
-//! All pins of the body and of its mechanism at once, with the mobilities of mechanisms: no case was found in which it does better. The pin
-//! alone, the next ones free: of two cables in series, of which the last body is jammed, one carries 0.1 % less than the other.
-//! An offset learnt from p, loaded against it and taken from what the cable gets: exact where it settles, and a body of 1 kg that 1 kN press
-//! against a stop is thrown, with a discrete gradient on a wire with that damping, whatever share of p the offset takes in a step.
+//! What was tried, and what it gave: docs/decisions/rapier.md.
 //!
 //! [`Impedance`]: lariat_ancf::island::Impedance
 

@@ -15,9 +15,7 @@
 //! Rapier's steps, of 1/240 s or less, and an [event](crate::Event::Degraded) says so (test contact.rs).
 //!
 //! # Alternatives considered
-//! One step of ESDIRK4 per Rapier step: still two bodies of 100 g on undamped wires swing by the whole of their tension. Either of the two also
-//! for bodies that move: it takes 3 to 13 % of the energy of a box that falls on a floor on a taut rope. Motors with the impedance of the cable alone: the
-//! waves grow as fast.
+//! What was tried, and what it gave: docs/decisions/rapier.md.
 
 use crate::body;
 use crate::body::prescribed_motion::PrescribedMotions;

@@ -13,9 +13,7 @@
 //! with what it lay on: Rapier has forgotten them.
 //!
 //! # Alternatives considered
-//! To find out before the step which bodies will wake: removed and changed colliders, joints and pairs are not to be read
-//! from outside. To repair the step after it: a body that 5 kN press against a stop would be thrown by them. The
-//! force among the user's forces on the body: who resets these forces would reset it.
+//! What was tried, and what it gave: docs/decisions/rapier.md.
 
 use crate::contents::Contents;
 use crate::contents::attachment::Attachment;

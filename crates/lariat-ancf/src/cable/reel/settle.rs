@@ -26,11 +26,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - To wait with the merge: smooth slack ropes of large EA would stop the winch.
-//! - To take the energy from velocities: a kink at rest has none, and a swinging rope would be
-//!   braked by a kink at its end.
-//! - Slopes of least energy at the ends of the merged element: they cannot relieve a chord that is
-//!   too short.
+//! What was tried, and what it gave: docs/decisions/reels.md.
 
 use crate::cable::Cable;
 use crate::element::side::Side;

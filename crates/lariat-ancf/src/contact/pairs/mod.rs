@@ -33,9 +33,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Forces on the centre lines alone (friction has a couple that is lost: angular momentum, and a knot that turns rigidly brakes itself). The distance of
-//! the material points instead of a plane (it grows as they slide along the cables). The same between the closest points of beginning and end, as on
-//! features ([`slide`](super::slide)): a knot that snaps shut is lost, and its iterations take many times as long.
+//! What was tried, and what it gave: docs/decisions/contact.md.
 
 mod chords;
 mod columns;

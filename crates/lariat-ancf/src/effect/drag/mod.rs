@@ -29,10 +29,7 @@
 //!
 //! # Alternatives considered
 //!
-//! - Drag on nodes: the force on a coarse cable is wrong, and slopes get none.
-//! - The exact, unsymmetric tangent in Newton's iteration: it saves 0 to 2 % of the iterations up
-//!   to 5 m/s of water, 36 % at 20 m/s on a 2 mm line at fidelity game, 2 % of the same under error
-//!   control, and an unsymmetric matrix costs every iteration.
+//! What was tried, and what it gave: docs/decisions/elements.md.
 
 mod lanes;
 mod law;

@@ -38,15 +38,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Energy quadratisation with one linear solve (Ducceschi & Bilbao 2022): strains are integrated and drift from the positions. L-stable methods (TR-BDF2, SDIRK): make
-//! energy on thrown slack cables. No dissipation, a = 0: unresolved modes keep a root -1, steel rings.
-//!
-//! What a linear solve misses of the axial forces, taken away with the factors at hand before the iteration is judged: 1.1 iterations per step for 1.7 of a payload, 1.9
-//! for 2.9 of thrown cables, in 6 to 9 % less time. The first iterate is then accepted more often with what it misses across the cable, and a thin line that snaps taut
-//! between a boom and a load moves the load by up to 12 % of its way apart from the same boom as a multibody, for 2.5 % (`lever.rs` in the tests of lariat-rapier).
-//!
-//! The matrix with the strains at the end of the iterate instead of its mean: a third of the imbalance after one iteration, but nearly half of the first iterates make
-//! energy instead of a quarter; three factorisations per step instead of 1.65.
+//! What was tried, and what it gave: docs/decisions/integration.md.
 
 mod advance;
 mod law;

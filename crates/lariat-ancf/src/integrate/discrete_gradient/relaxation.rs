@@ -15,9 +15,7 @@
 //!
 //! # Alternatives considered
 //!
-//! Halves to the end: a rope that falls tilted takes 1.5 times the iterations, a box that ropes catch twice as many in its dearest host step. The same by the imbalance
-//! instead of the energy: a few per cent more, and up to twice as many in dearest host steps. Whole increments again as soon as a half one improves: 15 % fewer iterations of ropes thrown at a floor and a
-//! drum, 40 % more in heaps, whose dearest host steps are those of a cable that kinks while its contacts are solved.
+//! What was tried, and what it gave: docs/decisions/integration.md.
 
 use crate::scales::integrate::{HALF, LINEAR, SWINGING, WHOLE_INCREMENTS};
 use crate::term::Balance;

@@ -28,15 +28,7 @@
 //!
 //! # Alternatives considered
 //!
-//! A part broken off after six iterations without progress: no fewer iterations. Bounds of friction that reverse changed by half: no fewer.
-//!
-//! Anderson's mixing of 3 to 8 increments, in the norm of kinetic energy, in place of half ones: a rope that falls on a rod 0.79 to 0.89 of
-//! the iterations, one that falls tilted on a floor 0.88 to 1.26, a heap 0.85 to 1.3. First iterates without acceleration, tangents without
-//! the second derivatives of bending, with the stiffness of compression, or with gradients of strains half way between the mean and the end of the iterate (a rope that falls tilted 1.9 of the iterations), up to 12 iterations in place of 20, contact forces to 1e-2,
-//! closure to 0.1: the same scatter (heaps 0.96 to 1.47), and none takes less than a half in the dearest host steps of all three.
-//!
-//! Impulses that a step leaves unbalanced, carried into the next one with the energy that they took: the example `fleet` takes 3.0 iterations per step for 2.7, and divides steps
-//! where it divided none; 400 cables that swing calmly 2.0 for 1.2. What is unbalanced along a stiff cable is already in its strain when the next step begins, so that it is not owed.
+//! What was tried, and what it gave: docs/decisions/integration.md.
 
 use super::law::{DiscreteGradientSystem, Event};
 use super::relaxation::Relaxation;

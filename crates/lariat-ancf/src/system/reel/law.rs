@@ -39,10 +39,7 @@
 //!
 //! # Alternatives considered
 //!
-//! An elastic clutch with a slip as state: stiff, and its constant is arbitrary. Stages of other
-//! methods: the reel would be one more coordinate of every integrator. A limit on acceleration that
-//! begins at the rate of the wheel: a wheel that has slipped, because stretch was let go, is led
-//! back so slowly that the rope falls slack, and a brake stops nothing faster than that limit.
+//! What was tried, and what it gave: docs/decisions/reels.md.
 
 use super::graph::{Bound, Graph};
 use crate::element::variable_length::Extent;

@@ -34,14 +34,7 @@
 //!
 //! # Alternatives considered
 //!
-//! The midpoint rule with an account that misses: where a rope of EA 1e6 N is taken in under 5 kN
-//! to its least length at 1/240 s, the account of the midpoint rule misses 1e-3 of the work, by the
-//! square of the step: its velocities at the ends of a step ring where modes are not resolved, and
-//! the cubic through them leaves the straight line, on which the rule moves, by as much as strains
-//! that rope by 5 % of its tension, to either side in turn. TR-BDF2 misses 1e-5, generalised-alpha
-//! 5e-5 with rho 0.5 and up to 1.6 % with others, by the same points. Strains on the line, and
-//! inertia at both ends with the mean acceleration: misses 3e-4 still. The middle alone misses up
-//! to a third of the work of a rope that is paid out.
+//! What was tried, and what it gave: docs/decisions/reels.md.
 
 use super::feeds::{OnLength, control};
 use super::step::StepMotion;
