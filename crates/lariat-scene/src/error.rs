@@ -169,6 +169,28 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
+    /// A scene that would need more memory or disk than anybody means.
+    #[error("the scene is too large: {problem}; accepted: {accepted}")]
+    TooLarge {
+        /// What is too large, and how large.
+        problem: String,
+        /// What is accepted.
+        accepted: String,
+    },
+    /// A folder that another run writes to.
+    #[error("{} belongs to a run that has not ended ({holder}): wait for it, or give another folder", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+        /// Process and start of that run.
+        holder: String,
+    },
+    /// A file that no run wrote, and that this one would overwrite.
+    #[error("{} is not the result of an earlier run and would be overwritten: move it, or give another folder", path.display())]
+    InTheWay {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file that could not be written to its end (a full disk); what was written before stays.
     #[error("at t = {time} s: cannot write {}: {source}; earlier samples are kept", path.display())]
     Write {
@@ -247,6 +269,9 @@ impl Error {
             | Error::Import { .. }
             | Error::Read { .. }
             | Error::ErrorTooSmall { .. }
+            | Error::TooLarge { .. }
+            | Error::Busy { .. }
+            | Error::InTheWay { .. }
             | Error::Output { .. } => 2,
             Error::Study { .. }
             | Error::Write { .. }

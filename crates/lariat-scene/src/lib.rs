@@ -24,9 +24,11 @@ pub mod scene;
 pub mod schema;
 mod suggest;
 pub mod sweep;
+mod text;
 pub mod view;
 mod warning;
 
 pub use error::{Error, Place, Problem, SceneError};
 pub use scene::{Purpose, Scene};
+pub use text::read_text;
 pub use warning::Warning;

@@ -4,6 +4,7 @@ use crate::document::{Document, KeyPath};
 use crate::error::Error;
 use crate::physics;
 use crate::scene::{self, Purpose, Scene, SceneTable};
+use crate::text::read_text;
 use std::path::Path;
 
 impl Scene {
@@ -12,7 +13,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Read`], [`Error::Syntax`], [`Error::Override`], [`Error::Scene`].
     pub fn read(path: &Path, overrides: &[String], purpose: Purpose) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
+        let text = read_text(path)?;
         let stem = path.file_stem().map_or_else(|| "scene".to_string(), |s| s.to_string_lossy().into_owned());
         parse(&path.display().to_string(), &stem, &text, overrides, purpose)
     }

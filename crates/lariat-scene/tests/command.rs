@@ -138,6 +138,8 @@ fn bad_input_exits_with_2_and_writes_nothing() {
         (vec!["run", &file, "--out", to, "--error", "1e-12"], "--error"),
         (vec!["run", "no/such/scene.toml", "--out", to], "no/such/scene.toml"),
         (vec!["run", &file], "--out"),
+        (vec!["run", "/dev/zero", "--out", to], "more than 256 MiB"),
+        (vec!["run", &file, "--out", to, "--set", "duration=1e6"], "would write some"),
         (vec!["fly"], "fly"),
     ] {
         let output = lariat(&arguments);
@@ -334,32 +336,86 @@ fn a_disk_that_fills_up_during_a_run_leaves_whole_rows() {
     assert!(!folder.path().join("view.html").exists());
 }
 
+/// A scene that runs for minutes, once it has written some rows to the folder.
 #[cfg(unix)]
-#[test]
-fn ctrl_c_leaves_every_sample_and_a_summary() {
-    let folder = tempfile::tempdir().unwrap();
-    let to = folder.path().to_str().unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_lariat"))
-        .args(["run", &scene("falling_pendulum"), "--out", to, "--set", "duration=1e5"])
+fn long_run(to: &Path) -> std::process::Child {
+    let child = Command::new(env!("CARGO_BIN_EXE_lariat"))
+        .args(["run", &scene("falling_pendulum"), "--out", to.to_str().unwrap(), "--set", "duration=1e4"])
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let probe = folder.path().join("probes/tip.csv");
-    let begun = || fs::metadata(&probe).is_ok_and(|m| m.len() > 1000);
-    for _ in 0..500 {
-        if begun() {
+    let probe = to.join("probes/tip.csv");
+    for _ in 0..3000 {
+        if fs::metadata(&probe).is_ok_and(|m| m.len() > 1000) {
             break;
         }
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    let summary = summary(folder.path());
-    assert!(summary.failed.unwrap().contains("interrupted"));
-    let (_, rows) = rows(probe);
-    assert!((rows.last().unwrap()[0] - summary.simulated_s).abs() < 1e-9);
-    let page = fs::read_to_string(folder.path().join("view.html")).unwrap();
-    assert!(page.contains("interrupted at t = ") && page.trim_end().ends_with("</html>"));
+    child
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_and_a_request_to_terminate_leave_every_sample_and_a_summary() {
+    for signal in ["-INT", "-TERM"] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut child = long_run(folder.path());
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{signal}");
+        let summary = summary(folder.path());
+        assert!(summary.failed.unwrap().contains("interrupted"));
+        let (_, rows) = rows(folder.path().join("probes/tip.csv"));
+        assert!((rows.last().unwrap()[0] - summary.simulated_s).abs() < 1e-9);
+        let page = fs::read_to_string(folder.path().join("view.html")).unwrap();
+        assert!(page.contains("interrupted at t = ") && page.trim_end().ends_with("</html>"));
+    }
+}
+
+/// The second run names the first and changes nothing of it; a run that was killed leaves no lock.
+#[cfg(unix)]
+#[test]
+fn two_runs_do_not_share_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().to_str().unwrap();
+    let mut first = long_run(folder.path());
+    for arguments in [
+        vec!["static", &scene("catenary"), "--out", to],
+        vec!["run", &scene("catenary"), "--out", to, "--error", "1e-3"],
+    ] {
+        let second = lariat(&arguments);
+        assert_eq!(second.status.code(), Some(2), "{}", stderr(&second));
+        assert!(stderr(&second).contains(&format!("process {}, begun", first.id())), "{}", stderr(&second));
+        assert!(folder.path().join("probes/tip.csv").exists() && !folder.path().join("summary.json").exists());
+    }
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert!(lariat(&["static", &scene("catenary"), "--out", to]).status.success());
+}
+
+#[test]
+fn a_file_that_no_run_wrote_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let mine = folder.path().join("summary.json");
+    fs::write(&mine, "mine").unwrap();
+    for command in ["run", "static"] {
+        let output = lariat(&[command, &scene("catenary"), "--out", folder.path().to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("summary.json is not the result"), "{}", stderr(&output));
+        assert_eq!(fs::read_to_string(&mine).unwrap(), "mine");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}
+
+/// A model nested 10 000 deep, which a recursive reader answers by overflowing its stack.
+#[test]
+fn a_model_that_is_nested_without_bound_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("deep.xml");
+    let bodies = "<body>".repeat(10_000) + &"</body>".repeat(10_000);
+    fs::write(&model, format!("<mujoco><worldbody>{bodies}</worldbody></mujoco>")).unwrap();
+    let output = lariat(&["import", model.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("nested deeper than 256 levels"), "{}", stderr(&output));
 }
 
 #[test]

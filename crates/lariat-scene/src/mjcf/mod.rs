@@ -23,6 +23,7 @@
 
 mod composite;
 mod flexcomp;
+mod limits;
 mod read;
 
 use crate::error::Error;
@@ -46,9 +47,11 @@ struct Imported {
 /// Reads the cables of a model, and returns a scene in TOML; `file` is its name in errors.
 ///
 /// # Errors
-/// [`Error::Import`] for a file that is not XML, without cables, or with what cannot be imported right.
+/// [`Error::Import`] for a file that is not XML, that nests elements deeper than 256 or gives one more than 256 attributes,
+/// without cables, or with what cannot be imported right.
 pub fn import(file: &str, text: &str) -> Result<String, Error> {
     let reader = Reader { file };
+    limits::check(text).map_err(|(line, problem)| reader.error(line, problem))?;
     let document = Document::parse(text).map_err(|error| reader.error(0, format!("not XML: {error}")))?;
     let root = document.root_element();
     if root.tag_name().name() != "mujoco" {

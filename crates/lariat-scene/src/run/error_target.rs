@@ -90,8 +90,9 @@ pub(super) fn conduct(
     options: &mut Options<'_>,
 ) -> Result<Recorded, Error> {
     check(scene, error, purpose)?;
-    // what hinders files is told before the first run; the rows of runs are kept until it is known which of them is the result
-    drop(open(scene)?);
+    // what hinders files is told before the first run, and the folder is held from then on; the rows of runs are kept until
+    // it is known which of them is the result
+    let files = open(scene)?;
     let in_memory = |scene: &Scene| Ok(Output::in_memory(scene));
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
     let each = |resolution: &Resolution, record: &mut Record| -> Result<(Scene, Done), Stopped> {
@@ -121,7 +122,7 @@ pub(super) fn conduct(
     match study.error(error).limit(limit).run() {
         Ok(Proof { world: (scene, mut done), claim }) => {
             let claim = ErrorClaim::of(&scene, claim, purpose, velocities_jump(&scene, &done));
-            done.output = done.output.move_to(&scene, open(&scene)?)?;
+            done.output = done.output.move_to(&scene, files)?;
             done.world.warnings.extend(claim.warning());
             if let Some(warn) = &mut options.warn {
                 done.world.warnings.iter().for_each(&mut **warn);
@@ -129,7 +130,7 @@ pub(super) fn conduct(
             Ok(done.finish(Some(claim)))
         }
         Err(StudyError::Run { source: Stopped::During(mut done), .. }) => {
-            done.output = done.output.move_to(scene, open(scene)?)?;
+            done.output = done.output.move_to(scene, files)?;
             Ok(done.finish(None))
         }
         Err(StudyError::Run { source: Stopped::Before(error), .. }) => Err(error),

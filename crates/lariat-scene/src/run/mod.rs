@@ -35,12 +35,14 @@
 
 mod balance;
 mod error_target;
+mod folder;
 mod output;
 mod pieces;
 mod probe;
 mod readings;
 mod recording;
 pub mod schedule;
+mod size;
 mod statics;
 mod summary;
 mod watch;
@@ -117,6 +119,7 @@ type Open<'a> = &'a dyn Fn(&Scene) -> Result<Output, Error>;
 
 /// Runs a scene once, or to the error that is asked for.
 fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Options<'_>) -> Result<Recorded, Error> {
+    size::check(scene, purpose)?;
     match options.error {
         Some(error) => error_target::conduct(scene, open, purpose, error, options),
         None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
@@ -202,9 +205,10 @@ fn simulate(
     options: &mut Options<'_>,
     mut record: Option<&mut Record>,
 ) -> Result<Done, Error> {
-    let mut output = open(scene)?;
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
+    // a scene that cannot be built leaves nothing in the folder
+    let mut output = open(scene)?;
     let mut watch = Watch::new(&world, purpose);
     let mut told = 0;
     let mut tell = |world: &World, options: &mut Options<'_>| {

@@ -1,15 +1,17 @@
 //! Where the samples of a run go: to a folder, as `probes/NAME.csv`, `view.html` and `summary.json`, or to memory.
 //!
 //! Numbers are the shortest text that reads back to the same f64. Every row is written to the file at once. The names of all files
-//! of a run are kept in `.lariat-files`, so that the next run into the same folder removes these and no others.
+//! of a run are kept in `.lariat-files`, so that the next run into the same folder removes these and no others: a file that
+//! is in the way and not in the list is an error. The list is locked while a run writes, so that two runs do not share a folder.
 
+use super::folder::Folder;
 use super::{Summary, World, probe};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::view::Recorder;
 use std::fmt::Write as _;
 use std::fs::{self, File};
-use std::io::{self, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -17,7 +19,6 @@ const SUMMARY: &str = "summary.json";
 const PAGE: &str = "view.html";
 const PROBES: &str = "probes";
 const USD: &str = "run.usda";
-const FILES: &str = ".lariat-files";
 
 /// The file of a probe.
 struct ProbeFile {
@@ -30,7 +31,7 @@ struct ProbeFile {
 /// Where rows are written.
 enum Sink {
     Folder {
-        folder: PathBuf,
+        folder: Folder,
         files: Vec<ProbeFile>,
         text: String,
         /// Whether `run.usda` is written.
@@ -58,19 +59,15 @@ pub(super) struct Kept {
 impl Output {
     /// Creates the folder and its files with their headers. Files that the last run wrote there are removed.
     pub fn create(scene: &Scene, folder: &Path, usd: bool) -> Result<Self, Error> {
+        let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
+        let own = [SUMMARY, PAGE].into_iter().chain(usd.then_some(USD)).map(String::from);
+        let folder = Folder::take(folder, &own.chain(names).collect::<Vec<_>>(), is_result)?;
         let fail = |path: &Path| {
             let path = path.to_path_buf();
             move |source| Error::Output { path, source }
         };
-        let probes = folder.join(PROBES);
+        let probes = folder.file(PROBES);
         fs::create_dir_all(&probes).map_err(fail(&probes))?;
-        for stale in files_of_last_run(folder).map_err(fail(&folder.join(FILES)))? {
-            fs::remove_file(&stale).map_err(fail(&stale))?;
-        }
-        let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
-        let own = [SUMMARY, PAGE].into_iter().chain(usd.then_some(USD)).map(String::from);
-        let list: String = own.chain(names).map(|name| name + "\n").collect();
-        fs::write(folder.join(FILES), list).map_err(fail(&folder.join(FILES)))?;
         let mut files = Vec::new();
         for p in &scene.probes {
             let path = probes.join(format!("{}.csv", p.name));
@@ -79,7 +76,7 @@ impl Output {
             file.write_all(header.as_bytes()).map_err(fail(&path))?;
             files.push(ProbeFile { path, file, length: header.len() as u64 });
         }
-        let sink = Sink::Folder { folder: folder.to_path_buf(), files, text: String::new(), usd };
+        let sink = Sink::Folder { folder, files, text: String::new(), usd };
         Ok(Output { sink, view: Recorder::new(scene), row: Vec::new() })
     }
 
@@ -130,7 +127,7 @@ impl Output {
             Sink::Folder { folder, usd, .. } => (folder, usd),
         };
         let write = |name: &str, text: String| {
-            let (path, time) = (folder.join(name), world.time());
+            let (path, time) = (folder.file(name), world.time());
             fs::write(&path, text).map_err(|source| {
                 // a part of a file would be misleading
                 let _ = fs::remove_file(&path);
@@ -175,18 +172,8 @@ impl ProbeFile {
     }
 }
 
-/// Returns the files that the last run into a folder wrote and that are still there.
-fn files_of_last_run(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let list = match fs::read_to_string(folder.join(FILES)) {
-        Ok(list) => list,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => return Err(error),
-    };
-    // nothing outside the folder, whatever the list says
-    let ours = |name: &&str| {
-        let probe =
-            name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
-        probe || [SUMMARY, PAGE, USD].contains(name)
-    };
-    Ok(list.lines().filter(ours).map(|name| folder.join(name)).filter(|path| path.is_file()).collect())
+/// Returns whether a name is one that runs give to their files: nothing outside the folder, whatever a list says.
+fn is_result(name: &str) -> bool {
+    let probe = name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
+    probe || [SUMMARY, PAGE, USD].contains(&name)
 }

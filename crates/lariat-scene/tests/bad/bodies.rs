@@ -222,6 +222,7 @@ fn meshes_are_read_from_the_folder_of_the_scene_and_are_errors_where_they_make_n
         ("outside", "v 0 0 0\nv 1 0 0\nf 1 2 7\n"),
         ("nan", "v 0 0 0\nv 1 0 0\nv 0 nan 1\nf 1 2 3\n"),
         ("broken", "v 0 0\nf 1 2 3\n"),
+        ("line", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n"),
         ("huge", "v 0 0 0\nv 1e300 0 0\nv 0 1e300 0\nv 0 0 1e300\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"),
     ] {
         fs::write(folder.path().join(name).with_extension("obj"), text).unwrap();
@@ -246,6 +247,7 @@ fn meshes_are_read_from_the_folder_of_the_scene_and_are_errors_where_they_make_n
         ("outside", "cannot read"),
         ("nan", ""),
         ("broken", "cannot read"),
+        ("line", "without area"),
         ("huge", ""),
     ] {
         let message = check(BOX, mesh);

@@ -151,8 +151,7 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
 }
 
 fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
-    let read = |source| Error::Read { path: model.to_path_buf(), source };
-    let text = std::fs::read_to_string(model).map_err(read)?;
+    let text = lariat_scene::read_text(model)?;
     let scene = lariat_scene::mjcf::import(&model.display().to_string(), &text)?;
     let Some(out) = out else { return Ok(scene) };
     std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;

@@ -26,8 +26,7 @@ pub struct SweepArguments {
 /// Runs the sweep, and returns what to print.
 pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
     let file = arguments.scene.display().to_string();
-    let read = |source| Error::Read { path: arguments.scene.clone(), source };
-    let text = std::fs::read_to_string(&arguments.scene).map_err(read)?;
+    let text = lariat_scene::read_text(&arguments.scene)?;
     let source = Source { file: &file, text: &text };
     let points = sweep::grid(&arguments.vary)?;
     let points: Vec<Vec<String>> = points.into_iter().map(|point| [&arguments.set[..], &point].concat()).collect();
