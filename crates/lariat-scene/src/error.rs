@@ -161,6 +161,12 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
+    /// A state that a run cannot start from.
+    #[error("a run cannot start from this state: {problem}")]
+    State {
+        /// Why.
+        problem: String,
+    },
     /// A folder or file that cannot be created before the run begins.
     #[error("cannot write to {}: {source}", path.display())]
     Output {
@@ -272,6 +278,7 @@ impl Error {
             | Error::TooLarge { .. }
             | Error::Busy { .. }
             | Error::InTheWay { .. }
+            | Error::State { .. }
             | Error::Output { .. } => 2,
             Error::Study { .. }
             | Error::Write { .. }

@@ -8,7 +8,7 @@ fn results(name: &str, text: &str, purpose: Purpose) -> (run::Summary, Vec<Vec<f
     let out: PathBuf = std::env::temp_dir().join(format!("lariat-effects-{name}-{}", std::process::id()));
     let scene = Scene::parse("effects.toml", text, &[], purpose).unwrap();
     let summary = match purpose {
-        Purpose::Run => run::run(&scene, &out, &mut run::Options::default()).unwrap(),
+        Purpose::Run | Purpose::Resume => run::run(&scene, &out, &mut run::Options::default()).unwrap(),
         Purpose::Static => run::statics(&scene, &out, &mut run::Options::default()).unwrap(),
     };
     let csv = std::fs::read_to_string(out.join("probes/p.csv")).unwrap();

@@ -24,7 +24,7 @@ fn execute(scene: &Scene, error: Option<f64>, purpose: Purpose) -> (Summary, Tem
     let folder = tempfile::tempdir().unwrap();
     let mut options = Options { error, ..Options::default() };
     let summary = match purpose {
-        Purpose::Run => run::run(scene, folder.path(), &mut options),
+        Purpose::Run | Purpose::Resume => run::run(scene, folder.path(), &mut options),
         Purpose::Static => run::statics(scene, folder.path(), &mut options),
     };
     (summary.unwrap(), folder)

@@ -97,6 +97,49 @@ pub struct RigidBody {
     /// velocity and angular velocity exceed them by at the beginning and at the end of the step, in
     /// m/s and rad/s. The pins follow cubics between them. Default: zero.
     pub unsteadiness: [[Vector3<f64>; 2]; 2],
+    /// In [statics](super::equilibrium), forces of constant direction that act at points of the body, beside `force` and `torque`, which are
+    /// through the centre of mass and constant: their torque turns with it. Default: none.
+    pub at_points: Option<PointForces>,
+}
+
+/// Forces of constant direction at points of a body, R its attitude: `sum F`, and `A = sum p F^T` of the points p from the centre of
+/// mass, in body axes. Their torque is the axial vector of `R A`, their work from the unturned attitude its trace.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointForces {
+    /// Sum of the forces in N, in world axes.
+    pub(super) force: Vector3<f64>,
+    moment: Matrix3<f64>,
+}
+
+impl PointForces {
+    /// Adds a force in N, in world axes, at a point in m from the centre of mass, in body axes.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for numbers that are not finite.
+    pub fn add(&mut self, point: &Vector3<f64>, force: &Vector3<f64>) -> Result<(), Error> {
+        require_finite("point of a force (m)", point)?;
+        require_finite("force on a body (N)", force)?;
+        self.force += force;
+        self.moment += point * force.transpose();
+        Ok(())
+    }
+
+    /// Returns the torque in N m at an attitude.
+    pub(super) fn torque(&self, rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
+        let b = rotation.to_rotation_matrix() * self.moment;
+        Vector3::new(b[(1, 2)] - b[(2, 1)], b[(2, 0)] - b[(0, 2)], b[(0, 1)] - b[(1, 0)])
+    }
+
+    /// Returns the derivative of the torque by a rotation, symmetrised, with the sign of a stiffness.
+    pub(super) fn stiffness(&self, rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
+        let b = rotation.to_rotation_matrix() * self.moment;
+        Matrix3::from_diagonal_element(b.trace()) - (b + b.transpose()) * 0.5
+    }
+
+    /// Returns the work in J of turning with the body, up to a constant.
+    pub(super) fn work(&self, rotation: &UnitQuaternion<f64>) -> f64 {
+        (rotation.to_rotation_matrix() * self.moment).trace()
+    }
 }
 
 impl RigidBody {
@@ -124,6 +167,7 @@ impl RigidBody {
             gyroscopic: true,
             memory: None,
             unsteadiness: Default::default(),
+            at_points: None,
         })
     }
 

@@ -76,7 +76,7 @@ impl Linearised for IslandStage<'_, '_, '_> {
         if fresh {
             equations.matrices.factored = 0.0;
             equations.cable_rows_and_matrices(&at, z, rhs)?;
-            equations.factor_bodies(MatrixKind::Step, y, v, rhs)?;
+            equations.factor_bodies(MatrixKind::Step, stage.c2, y, v, rhs)?;
             equations.matrices.factored = stage.c2;
         } else {
             equations.cable_rows(&at, z, rhs);

@@ -178,12 +178,19 @@ impl IslandEquations<'_, '_> {
             }
             self.matrices.mass_is_factored = true;
         }
-        self.factor_bodies(MatrixKind::Mass, q, v, &[])
+        self.factor_bodies(MatrixKind::Mass, 0.0, q, v, &[])
     }
 
     /// Factors the matrix of the bodies: masses, condensed cables, and, of the step matrix, the
-    /// geometric stiffness of the levers under the rows `rhs` of the held coordinates.
-    pub fn factor_bodies(&mut self, kind: MatrixKind, q: &[f64], v: &[f64], rhs: &[f64]) -> Result<(), StepFailure> {
+    /// geometric stiffness of the levers under the rows `rhs` of the held coordinates, and `scale` times that of forces at points.
+    pub fn factor_bodies(
+        &mut self,
+        kind: MatrixKind,
+        scale: f64,
+        q: &[f64],
+        v: &[f64],
+        rhs: &[f64],
+    ) -> Result<(), StepFailure> {
         let layout = self.layout;
         let matrix = self.matrices.of(kind);
         matrix.begin(layout.bodies.len(), 0);
@@ -197,6 +204,9 @@ impl IslandEquations<'_, '_> {
             let mut rotational = inertia.fixed_view_mut::<3, 3>(3, 3);
             rotational += body.world_inertia(&motion.rotation);
             matrix.add_inertia(i, &inertia);
+            if let (Some(points), MatrixKind::Step) = (&body.at_points, kind) {
+                matrix.add_rotational(i, &(points.stiffness(&motion.rotation) * scale));
+            }
         }
         layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
         for (c, part) in layout.parts.iter().enumerate() {
@@ -228,7 +238,7 @@ impl IslandEquations<'_, '_> {
             definite &= matches!(equations.factor()?, Definiteness::PositiveDefinite);
         }
         self.cable_rows_and_matrices(at, &none, rhs)?;
-        self.factor_bodies(MatrixKind::Step, at.q, at.v, rhs)?;
+        self.factor_bodies(MatrixKind::Step, at.scale, at.q, at.v, rhs)?;
         Ok(definite && self.matrices.step.is_positive_definite())
     }
 

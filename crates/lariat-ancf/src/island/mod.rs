@@ -62,7 +62,7 @@ mod velocities;
 
 pub use crate::scales::island::CLOSING_SPEED;
 pub(crate) use alone::advance as advance_alone;
-pub use body::{BodyMemory, RigidBody};
+pub use body::{BodyMemory, PointForces, RigidBody};
 pub use coupling::CoupledInertia;
 pub use impedance::Impedance;
 pub use pin::PinConstraint;

@@ -21,6 +21,10 @@ impl Layout {
             let gyroscopic =
                 if body.gyroscopic { motion.spin.cross(&(inertia * motion.spin)) } else { Vector3::zeros() };
             let mut torque = (body.torque - gyroscopic) * scale - inertia * alpha;
+            if let Some(points) = &body.at_points {
+                force += points.force * scale;
+                torque += points.torque(&motion.rotation) * scale;
+            }
             if let Some((momentum, spin)) = body.carried_momentum(&vector(&k[at..]), &alpha) {
                 force -= momentum;
                 torque -= spin;

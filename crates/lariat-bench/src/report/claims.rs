@@ -224,7 +224,7 @@ impl Study {
         let mut settings = Vec::new();
         for elements in MESHES.into_iter().filter(|n| *n <= finest) {
             let tolerances: Vec<Option<f64>> = match self.purpose {
-                Purpose::Run => TOLERANCES.into_iter().map(Some).collect(),
+                Purpose::Run | Purpose::Resume => TOLERANCES.into_iter().map(Some).collect(),
                 Purpose::Static => vec![None],
             };
             for tolerance in tolerances {

@@ -77,6 +77,7 @@ pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<Rigid
         gyroscopic: body.gyroscopic_forces_enabled(),
         memory: None,
         unsteadiness: Default::default(),
+        at_points: None,
     })
 }
 

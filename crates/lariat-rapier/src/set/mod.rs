@@ -23,7 +23,7 @@ use crate::contents::attachment::AttachmentKind;
 use crate::edit::{self, world_mark};
 use crate::error::Error;
 use crate::handle::CableHandle;
-use crate::statics::{self, Equilibrium};
+use crate::statics::{self, BodyForce, Equilibrium};
 use crate::step::Stepper;
 use crate::step::settings::Settings;
 use lariat_ancf::coupling::Coupling;
@@ -212,8 +212,19 @@ impl CableSet {
     /// contacts; [`Error::CableTouchesInStatics`] for a cable with contact that would run through a
     /// collider; [`Error::OtherWorld`]. Set and world are then as before.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
+        self.equilibrium_under(world, &[])
+    }
+
+    /// Moves cables and bodies to static equilibrium as [`equilibrium`](Self::equilibrium) does, under further forces that keep their
+    /// direction and act at points of bodies, whose torque turns with the body. Forces that Rapier's bodies have are constant, with their
+    /// torque. A run that is to stay there must apply the further forces itself.
+    ///
+    /// # Errors
+    /// As [`equilibrium`](Self::equilibrium); [`Error::Cable`] for numbers that are not finite.
+    pub fn equilibrium_under(&mut self, world: &mut PhysicsWorld, forces: &[BodyForce]) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;
-        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, EquilibriumOptions::default())
+        let options = EquilibriumOptions::default();
+        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, forces, options)
     }
 
     /// Moves a cable that is not in the set to static equilibrium, at its supports, before it is

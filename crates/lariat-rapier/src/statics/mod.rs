@@ -19,6 +19,7 @@ mod solve;
 mod write;
 
 pub use report::Equilibrium;
+pub use solve::BodyForce;
 
 use crate::body::is_integrated;
 use crate::body::ledger::is_ledger;
@@ -46,6 +47,7 @@ pub(crate) fn equilibrium(
     contents: &mut Contents,
     finder: &mut Finder,
     world: &mut PhysicsWorld,
+    forces: &[BodyForce],
     options: EquilibriumOptions,
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
@@ -57,7 +59,7 @@ pub(crate) fn equilibrium(
     let mut out = Equilibrium::default();
     let mut solved = Vec::new();
     for island in &islands.list {
-        solved.push(solve(contents, finder, world, island, options, &mut out)?);
+        solved.push(solve(contents, finder, world, (island, forces), options, &mut out)?);
     }
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;

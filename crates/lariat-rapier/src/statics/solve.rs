@@ -9,11 +9,11 @@ use crate::convert::{rotation, to_pose, vector};
 use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
-use ::nalgebra::Matrix3;
+use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::island::{self, RigidBody};
 use lariat_ancf::{At, Cable, EquilibriumFailure, EquilibriumOptions, Motion};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::math::Pose;
+use rapier::math::{Pose, Vector};
 use rapier::pipeline::PhysicsWorld;
 
 /// Cables and members of an island in equilibrium.
@@ -21,6 +21,17 @@ pub(super) struct Solved<'a> {
     pub island: &'a Island,
     pub cables: Vec<Cable>,
     pub members: Vec<RigidBody>,
+}
+
+/// A force of constant direction at a point of a body, in statics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyForce {
+    /// The body.
+    pub body: RigidBodyHandle,
+    /// The point in m, in the axes of the body.
+    pub point: Vector,
+    /// The force in N, in the axes of the world.
+    pub force: Vector3<f64>,
 }
 
 /// Returns an error of statics with the collider in which a cable would be.
@@ -40,7 +51,7 @@ pub(super) fn solve<'a>(
     contents: &mut Contents,
     finder: &mut Finder,
     world: &PhysicsWorld,
-    island: &'a Island,
+    (island, forces): (&'a Island, &[BodyForce]),
     options: EquilibriumOptions,
     out: &mut Equilibrium,
 ) -> Result<Solved<'a>, Error> {
@@ -60,7 +71,7 @@ pub(super) fn solve<'a>(
     let mut members = Vec::new();
     for member in &island.members {
         members.push(match member {
-            Member::Body(handle) => free_body(contents, world, *handle)?,
+            Member::Body(handle) => free_body(contents, world, *handle, forces)?,
             Member::Driven(handle) => held_body(world, *handle)?,
             Member::Junction(j) => {
                 let junction = contents.junctions.get(*j).expect("islands are found anew when a junction ends");
@@ -83,7 +94,12 @@ pub(super) fn solve<'a>(
 }
 
 /// Returns a dynamic body at its place, with gravity and the user's forces.
-fn free_body(contents: &Contents, world: &PhysicsWorld, handle: RigidBodyHandle) -> Result<RigidBody, Error> {
+fn free_body(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    forces: &[BodyForce],
+) -> Result<RigidBody, Error> {
     let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
     let joined = world.impulse_joints.attached_enabled_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
     if joined || world.multibody_joints.rigid_body_link(handle).is_some() {
@@ -95,6 +111,10 @@ fn free_body(contents: &Contents, world: &PhysicsWorld, handle: RigidBodyHandle)
     }
     if body.inertia == Matrix3::zeros() {
         body.inertia = Matrix3::identity();
+    }
+    let centre = world.bodies[handle].local_center_of_mass();
+    for BodyForce { point, force, .. } in forces.iter().filter(|force| force.body == handle) {
+        body.at_points.get_or_insert_default().add(&vector(*point - centre), force)?;
     }
     Ok(body)
 }

@@ -1,8 +1,8 @@
 //! From bodies of a scene to bodies of Rapier.
 
 use crate::scene::body::{BodyKind, BodyMass, BodyScene, BodyShape};
-use lariat_rapier::convert::{to_pose, to_vector, vector};
-use lariat_rapier::rapier::dynamics::{MassProperties, RigidBodyHandle};
+use lariat_rapier::convert::{rotation, to_pose, to_vector, vector};
+use lariat_rapier::rapier::dynamics::{MassProperties, RigidBody as RapierBody, RigidBodyHandle};
 use lariat_rapier::rapier::math::{Real, Vector};
 use lariat_rapier::rapier::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder};
 
@@ -101,10 +101,15 @@ pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHan
     if body.kind == BodyKind::Dynamic {
         let inserted = &mut world.bodies[handle];
         inserted.recompute_mass_properties_from_colliders(&world.colliders);
-        // Rapier's velocity is that of the centre of mass
-        let arm = body.rotation * vector(inserted.local_center_of_mass());
-        inserted.set_linvel(to_vector(&(body.velocity + body.angular_velocity.cross(&arm))), true);
-        inserted.set_angvel(to_vector(&body.angular_velocity), true);
+        set_in_motion(inserted, body);
     }
     Ok(handle)
+}
+
+/// Sets a dynamic body in motion as the scene says.
+pub fn set_in_motion(inserted: &mut RapierBody, body: &BodyScene) {
+    // Rapier's velocity is that of the centre of mass
+    let arm = rotation(*inserted.rotation()) * vector(inserted.local_center_of_mass());
+    inserted.set_linvel(to_vector(&(body.velocity + body.angular_velocity.cross(&arm))), true);
+    inserted.set_angvel(to_vector(&body.angular_velocity), true);
 }

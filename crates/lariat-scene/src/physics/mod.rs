@@ -32,6 +32,7 @@ use lariat_rapier::{
     AttachmentHandle, AttachmentKind, AttachmentReading, CableHandle, CableSet, Drum, Event, Gap, SheaveHandle,
     SheaveOptions,
 };
+use serde::{Deserialize, Serialize};
 
 /// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
 const RAPIER_STEPS: u32 = 4;
@@ -39,6 +40,7 @@ const RAPIER_STEPS: u32 = 4;
 const JOLT: f64 = 1e-5;
 
 /// The bodies of a scene, and its cables during a run.
+#[derive(Serialize, Deserialize)]
 pub struct Physics {
     world: PhysicsWorld,
     bodies: Vec<RigidBodyHandle>,
@@ -53,6 +55,8 @@ pub struct Physics {
     held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Rapier steps per host step.
     rapier_steps: u32,
+    /// Whether loads on bodies act in full from the start, whatever their ramps.
+    full_loads: bool,
     /// Sum of all steps done, in s.
     reached: f64,
     /// Largest gap so far in m.
@@ -90,6 +94,7 @@ impl Clone for Physics {
             sheaves: self.sheaves.clone(),
             held_by: self.held_by.clone(),
             rapier_steps: self.rapier_steps,
+            full_loads: self.full_loads,
             reached: self.reached,
             max_gap: self.max_gap,
             passed: self.passed.clone(),
@@ -135,6 +140,7 @@ impl Physics {
             sheaves: Vec::new(),
             held_by: Vec::new(),
             rapier_steps,
+            full_loads: false,
             reached: 0.0,
             max_gap: 0.0,
             passed: Vec::new(),
@@ -289,7 +295,8 @@ impl Physics {
         }
         for load in &scene.body_loads {
             let body = &mut self.world.bodies[self.bodies[load.body]];
-            let share = if load.ramp > 0.0 { (0.5 * (from + to) / load.ramp).min(1.0) } else { 1.0 };
+            let share =
+                if load.ramp > 0.0 && !self.full_loads { (0.5 * (from + to) / load.ramp).min(1.0) } else { 1.0 };
             let point = reading::state(body).position + reading::state(body).rotation * load.point;
             body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), true);
             body.add_torque(to_vector(&(load.moment * share)), true);

@@ -1,17 +1,13 @@
 //! Static equilibrium of the bodies of a scene and the cables attached to them.
 
-use super::{Physics, reading};
+use super::{Physics, build};
 use crate::error::Error;
 use crate::scene::Scene;
+use crate::scene::body::BodyKind;
 use lariat_ancf::{Cable, EquilibriumReport};
+use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{AttachmentReading, Equilibrium};
-use nalgebra::UnitQuaternion;
-
-/// Number of times that loads which act at a point of a body are applied anew to the body in its new attitude.
-const MAX_ROUNDS: usize = 100;
-/// Rotation in rad that does not change a load, in Rapier's single precision.
-const SAME_ATTITUDE: f64 = 1e-6;
+use lariat_rapier::{AttachmentReading, BodyForce, Equilibrium};
 
 /// What statics did with the bodies of a scene, by their positions in it.
 #[non_exhaustive]
@@ -27,29 +23,27 @@ pub struct Settled {
 }
 
 impl Physics {
-    /// Moves cables and dynamic bodies to equilibrium, with the loads on bodies in full.
+    /// Moves cables and dynamic bodies to equilibrium, `fully` with those loads on bodies that have a ramp, which then stay.
     ///
     /// # Errors
     /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body with a joint or a contact.
-    pub fn settle(&mut self, scene: &Scene) -> Result<Settled, Error> {
-        let attitudes = |this: &Self| -> Vec<UnitQuaternion<f64>> {
-            scene
-                .body_loads
-                .iter()
-                .map(|load| reading::state(&this.world.bodies[this.bodies[load.body]]).rotation)
-                .collect()
-        };
-        for _ in 0..MAX_ROUNDS {
-            let before = attitudes(self);
-            self.load(scene, f64::MAX, f64::MAX);
-            let found = self.cables.equilibrium(&mut self.world).map_err(|error| self.explain(scene, 0.0, error))?;
-            if before.iter().zip(&attitudes(self)).all(|(a, b)| a.angle_to(b) <= SAME_ATTITUDE) {
-                return self.settled(scene, &found);
-            }
+    pub fn settle(&mut self, scene: &Scene, fully: bool) -> Result<Settled, Error> {
+        self.full_loads = fully;
+        let acting = scene.body_loads.iter().filter(|load| fully || load.ramp == 0.0);
+        let forces: Vec<BodyForce> = acting
+            .clone()
+            .map(|load| BodyForce { body: self.bodies[load.body], point: to_vector(&load.point), force: load.force })
+            .collect();
+        for load in &scene.body_loads {
+            let body = &mut self.world.bodies[self.bodies[load.body]];
+            body.reset_forces(false);
+            body.reset_torques(false);
         }
-        let body = scene.body_loads.first().map_or(String::new(), |load| scene.bodies[load.body].name.clone());
-        let problem = "its loads turn with it, and no equilibrium was found".to_string();
-        Err(Error::Body { time: 0.0, body, problem })
+        for load in acting {
+            self.world.bodies[self.bodies[load.body]].add_torque(to_vector(&load.moment), true);
+        }
+        let found = self.cables.equilibrium_under(&mut self.world, &forces);
+        self.settled(scene, &found.map_err(|error| self.explain(scene, 0.0, error))?)
     }
 
     /// Moves a cable that is not yet attached to equilibrium, with all bodies held where they are
@@ -61,6 +55,24 @@ impl Physics {
     pub fn equilibrium_among(&mut self, scene: &Scene, cable: &mut Cable) -> Result<EquilibriumReport, Error> {
         let found = self.cables.equilibrium_among(&self.world, cable);
         found.map_err(|error| self.explain(scene, 0.0, error))
+    }
+
+    /// Sets cables and bodies that are in equilibrium in motion, as the scene says, and adds the loads that begin with a ramp, unless all
+    /// act in full.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`]; not for a checked scene.
+    pub fn set_off(&mut self, scene: &Scene) -> Result<(), Error> {
+        for (i, &handle) in self.handles.iter().enumerate() {
+            let cable = self.cables.get_mut(handle).map_err(|source| Error::Coupling { time: 0.0, source })?;
+            scene.set_off(cable, i, !self.full_loads)?;
+        }
+        for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
+            if body.kind == BodyKind::Dynamic && (body.velocity, body.angular_velocity) != Default::default() {
+                build::set_in_motion(&mut self.world.bodies[handle], body);
+            }
+        }
+        Ok(())
     }
 
     fn settled(&mut self, scene: &Scene, found: &Equilibrium) -> Result<Settled, Error> {

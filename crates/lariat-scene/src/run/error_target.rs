@@ -37,12 +37,12 @@ impl ErrorClaim {
         let mut not_covered = vec!["the model: theory of thin rods, rule, law and effects, measured data"];
         if scene.engine == Engine::Rapier {
             not_covered.push("single precision of bodies");
-            if purpose == Purpose::Run {
+            if purpose != Purpose::Static {
                 not_covered.push("the host step of Rapier: its contacts, joints and free bodies");
             }
         }
         let kinematic = scene.bodies.iter().any(|body| body.kind == BodyKind::Kinematic);
-        if kinematic && purpose == Purpose::Run {
+        if kinematic && purpose != Purpose::Static {
             not_covered.push("motion of kinematic bodies within a host step");
         }
         if jumps {
@@ -104,7 +104,7 @@ pub(super) fn conduct(
             cable.elements = resolution.elements_of(cable.elements, largest);
             // a load inside an element is nearer to the nodes of one mesh than to those of the next, and distances say nothing
             cable.nodes_at_loads = true;
-            if purpose == Purpose::Run {
+            if purpose != Purpose::Static {
                 cable.integrator = resolution.integrator().into();
             }
         }
@@ -115,7 +115,7 @@ pub(super) fn conduct(
         if done.outcome.is_err() { Err(Stopped::During(Box::new(done))) } else { Ok((scene, done)) }
     };
     let study = match purpose {
-        Purpose::Run => Study::new(scene.duration, scene.dt, each),
+        Purpose::Run | Purpose::Resume => Study::new(scene.duration, scene.dt, each),
         Purpose::Static => Study::of_equilibrium(each),
     };
     let limit = LIMIT.max(4 * largest);
@@ -155,7 +155,7 @@ fn velocities_jump(scene: &Scene, done: &Done) -> bool {
 
 /// Refuses an error that rounding does not allow to prove, and cables that error control does not solve for.
 fn check(scene: &Scene, error: f64, purpose: Purpose) -> Result<(), Error> {
-    if purpose == Purpose::Run {
+    if purpose != Purpose::Static {
         let winds =
             |cable: &CableScene| cable.drum.is_some() || cable.reel.as_ref().is_some_and(|r| r.max_force.is_some());
         let winding =

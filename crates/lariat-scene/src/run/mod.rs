@@ -43,6 +43,8 @@ mod readings;
 mod recording;
 pub mod schedule;
 mod size;
+mod start;
+mod state;
 mod statics;
 mod summary;
 mod watch;
@@ -54,6 +56,7 @@ pub use lariat_ancf::warning::EnergyBalance;
 pub use pieces::{Parted, Piece};
 pub(crate) use probe::columns;
 pub use recording::{ProbeRecord, Recording, collect};
+pub use state::State;
 pub use statics::{BodyPlace, BodyStatics, CableStatics, StaticReaction};
 pub use summary::Summary;
 pub use world::World;
@@ -88,6 +91,8 @@ pub struct Options<'a> {
     pub pilot: Option<&'a mut dyn FnMut(&Resolution)>,
     /// Whether [`run`] and [`statics`] write `run.usda`, the motion as OpenUSD, too.
     pub usd: bool,
+    /// Where a run begins, in place of what the scene says; not together with `error`. The scene is read with [`Purpose::Resume`].
+    pub from: Option<State>,
 }
 
 /// Runs a scene for its duration and writes `summary.json`, `probes/*.csv` and [`view.html`](crate::view) to the folder `out`.
@@ -109,7 +114,7 @@ pub fn statics(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<S
 
 fn to_folder(scene: &Scene, out: &Path, purpose: Purpose, options: &mut Options<'_>) -> Result<Summary, Error> {
     let usd = options.usd;
-    let open = |scene: &Scene| Output::create(scene, out, usd);
+    let open = |scene: &Scene| Output::create(scene, out, usd, purpose == Purpose::Static);
     let Recorded { summary, kept, outcome, .. } = conduct(scene, &open, purpose, options)?;
     outcome.and(kept.map(|_| ())).map(|()| summary)
 }
@@ -121,6 +126,10 @@ type Open<'a> = &'a dyn Fn(&Scene) -> Result<Output, Error>;
 fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Options<'_>) -> Result<Recorded, Error> {
     size::check(scene, purpose)?;
     match options.error {
+        Some(_) if options.from.is_some() => {
+            let problem = "an error that is asked for changes the mesh, and the state has one".to_string();
+            Err(Error::State { problem })
+        }
         Some(error) => error_target::conduct(scene, open, purpose, error, options),
         None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
     }
@@ -218,14 +227,18 @@ fn simulate(
         }
         told = world.warnings.len();
     };
-    let outcome = world.start(purpose).and_then(|()| {
+    let started = match options.from.as_ref().filter(|_| purpose != Purpose::Static) {
+        Some(state) => world.resume(state),
+        None => world.start(purpose),
+    };
+    let outcome = started.and_then(|()| {
         world.note_start();
-        if purpose == Purpose::Run {
+        if purpose != Purpose::Static {
             watch = Watch::new(&world, purpose);
         }
         watch.note(&world)?;
         tell(&world, options);
-        if purpose == Purpose::Run {
+        if purpose != Purpose::Static {
             return advance(scene, &mut world, &mut output, &mut watch, options, record.take());
         }
         (0..scene.probes.len()).try_for_each(|probe| output.sample(probe, 0.0, &mut world))?;
@@ -237,7 +250,7 @@ fn simulate(
     tell(&world, options);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
     let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
-    let balance = (purpose == Purpose::Run).then(|| watch.balance());
+    let balance = (purpose != Purpose::Static).then(|| watch.balance());
     Ok(Done { world, output, cpu, wall, balance, outcome })
 }
 

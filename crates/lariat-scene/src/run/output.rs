@@ -5,6 +5,7 @@
 //! is in the way and not in the list is an error. The list is locked while a run writes, so that two runs do not share a folder.
 
 use super::folder::Folder;
+use super::state::State;
 use super::{Summary, World, probe};
 use crate::error::Error;
 use crate::scene::Scene;
@@ -19,6 +20,8 @@ const SUMMARY: &str = "summary.json";
 const PAGE: &str = "view.html";
 const PROBES: &str = "probes";
 const USD: &str = "run.usda";
+/// What a run can start from.
+pub(super) const STATE: &str = "state";
 
 /// The file of a probe.
 struct ProbeFile {
@@ -36,6 +39,8 @@ enum Sink {
         text: String,
         /// Whether `run.usda` is written.
         usd: bool,
+        /// Whether `state` is written.
+        state: bool,
     },
     /// The rows of each probe, one after the other.
     Memory(Vec<Vec<f64>>),
@@ -58,9 +63,9 @@ pub(super) struct Kept {
 
 impl Output {
     /// Creates the folder and its files with their headers. Files that the last run wrote there are removed.
-    pub fn create(scene: &Scene, folder: &Path, usd: bool) -> Result<Self, Error> {
+    pub fn create(scene: &Scene, folder: &Path, usd: bool, state: bool) -> Result<Self, Error> {
         let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
-        let own = [SUMMARY, PAGE].into_iter().chain(usd.then_some(USD)).map(String::from);
+        let own = [SUMMARY, PAGE].into_iter().chain(usd.then_some(USD)).chain(state.then_some(STATE)).map(String::from);
         let folder = Folder::take(folder, &own.chain(names).collect::<Vec<_>>(), is_result)?;
         let fail = |path: &Path| {
             let path = path.to_path_buf();
@@ -76,7 +81,7 @@ impl Output {
             file.write_all(header.as_bytes()).map_err(fail(&path))?;
             files.push(ProbeFile { path, file, length: header.len() as u64 });
         }
-        let sink = Sink::Folder { folder, files, text: String::new(), usd };
+        let sink = Sink::Folder { folder, files, text: String::new(), usd, state };
         Ok(Output { sink, view: Recorder::new(scene), row: Vec::new() })
     }
 
@@ -122,9 +127,9 @@ impl Output {
     pub fn finish(self, summary: &Summary, world: &World) -> Result<Kept, Error> {
         let Output { sink, mut view, .. } = self;
         view.close(world);
-        let (folder, usd) = match sink {
+        let (folder, usd, state) = match sink {
             Sink::Memory(rows) => return Ok(Kept { rows, view }),
-            Sink::Folder { folder, usd, .. } => (folder, usd),
+            Sink::Folder { folder, usd, state, .. } => (folder, usd, state && summary.failed.is_none()),
         };
         let write = |name: &str, text: String| {
             let (path, time) = (folder.file(name), world.time());
@@ -137,7 +142,8 @@ impl Output {
         let written = write(SUMMARY, summary.to_json() + "\n");
         let page = write(PAGE, view.page(world, summary));
         let motion = if usd { write(USD, view.usd(world)) } else { Ok(()) };
-        page.and(motion).and(written).map(|()| Kept { rows: Vec::new(), view })
+        let kept = if state { write(STATE, State::of(world)?.to_text()) } else { Ok(()) };
+        page.and(motion).and(written).and(kept).map(|()| Kept { rows: Vec::new(), view })
     }
 }
 
@@ -175,5 +181,5 @@ impl ProbeFile {
 /// Returns whether a name is one that runs give to their files: nothing outside the folder, whatever a list says.
 fn is_result(name: &str) -> bool {
     let probe = name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
-    probe || [SUMMARY, PAGE, USD].contains(&name)
+    probe || [SUMMARY, PAGE, USD, STATE].contains(&name)
 }

@@ -21,7 +21,7 @@ impl Watch {
     /// Begins with the cables as they are: for a run at t = 0, for statics as drawn. A cable that is not drawn straight is drawn near the
     /// equilibrium that statics find, and its displacement says nothing.
     pub fn new(world: &World, purpose: Purpose) -> Self {
-        let drawn = world.scene.cables.iter().map(|cable| purpose == Purpose::Run || cable.points.len() == 2);
+        let drawn = world.scene.cables.iter().map(|cable| purpose != Purpose::Static || cable.points.len() == 2);
         let watch = |(cable, known)| {
             if known { lariat_ancf::Watch::new(cable) } else { lariat_ancf::Watch::from_guess() }
         };

@@ -1,12 +1,11 @@
 //! The cables and bodies of a scene while it runs.
 
-use super::readings::pull;
 use super::{BodyStatics, CableStatics, Parted};
 use crate::error::Error;
 use crate::physics::Physics;
-use crate::scene::{Engine, Purpose, Scene};
+use crate::scene::{Engine, Scene};
 use crate::warning::Warning;
-use lariat_ancf::{At, AxialRule, Cable, EquilibriumReport, Support};
+use lariat_ancf::Cable;
 
 /// The cables and bodies of a scene in their present state.
 #[derive(Clone)]
@@ -23,7 +22,7 @@ pub struct World {
     /// By cable of the file, its parts, in their order along it.
     pub(super) order: Vec<Vec<usize>>,
     /// By cable of the file, whether its cut is done.
-    cut: Vec<bool>,
+    pub(super) cut: Vec<bool>,
     pub(super) breaks: Vec<Parted>,
     pub(super) warnings: Vec<Warning>,
     /// Iterations of the statics, which are Newton iterations too.
@@ -68,107 +67,6 @@ impl World {
             }
         }
         Ok(world)
-    }
-
-    /// Brings the cables to their start: static equilibrium where the scene asks for it, with
-    /// bodies held where they are drawn, on which cables with contact lie; loads; initial motion.
-    /// For a run with Rapier the cables are then attached to the bodies. For statics, all cables go
-    /// to equilibrium, and with Rapier the dynamic bodies attached to them, too.
-    ///
-    /// # Errors
-    /// [`Error::Mechanics`] if there is no equilibrium, [`Error::Body`] for statics of a body with a joint or a contact.
-    pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
-        let fully = purpose == Purpose::Static;
-        let World { scene, alone, warnings, static_iterations, physics, .. } = self;
-        if fully && let Some(sheave) = scene.sheaves.first() {
-            let cable = scene.cables[sheave.cables[0]].name.clone();
-            let reason = "its end is at a sheave, whose equilibrium is not computed: run the scene until it rests";
-            return Err(lariat_ancf::Error::ReelPlace { cable, reason }.into());
-        }
-        warnings.extend(scene.warnings(purpose));
-        let mut held_by = vec![Default::default(); scene.attachments.len()];
-        let mut reports = Vec::new();
-        for (i, cable) in alone.iter_mut().enumerate() {
-            scene.add_loads(cable, i, false, fully)?;
-            if fully {
-                scene.add_loads(cable, i, true, true)?;
-            }
-            if fully || scene.cables[i].equilibrium {
-                scene.move_to_anchors(cable, i)?;
-                let report = match physics {
-                    // statics of bodies begin without what the cable can touch
-                    Some(physics) if !fully => physics.equilibrium_among(scene, cable)?,
-                    _ => cable.equilibrium()?,
-                };
-                *static_iterations += report.iterations as u64;
-                // with bodies this is where statics begin
-                if !(report.stable || fully && physics.is_some()) {
-                    warnings.push(unstable(cable));
-                }
-                reports.push(report);
-            }
-            if fully && physics.is_none() {
-                continue;
-            }
-            let by_bodies = |k: &usize| scene.attachments[*k].cable == i && scene.attachments[*k].body.is_some();
-            for k in (0..scene.attachments.len()).filter(by_bodies) {
-                held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
-            }
-            for k in (0..scene.attachments.len()).filter(by_bodies) {
-                let at = At::ArcLength(scene.attachments[k].arc_length);
-                cable.set_support(at, Support::default())?;
-            }
-            for &(_, arc_length) in scene.tied(i) {
-                cable.set_support(At::ArcLength(arc_length), Support::default())?;
-            }
-            if !fully {
-                scene.add_loads(cable, i, true, false)?;
-                scene.set_in_motion(cable, i)?;
-                if !scene.cables[i].equilibrium {
-                    warnings.extend(scene.drawn_corner(i, cable));
-                }
-            }
-        }
-        if let Some(physics) = physics {
-            physics.take(scene, std::mem::take(alone), &held_by)?;
-            if fully {
-                reports = self.settle()?;
-            } else {
-                warnings.extend(physics.jolts(scene)?);
-                warnings.extend(physics.inside(scene));
-            }
-        }
-        if fully {
-            self.read_statics(&reports)?;
-        }
-        Ok(())
-    }
-
-    /// Moves cables and bodies to equilibrium, and returns the reports of the cables.
-    fn settle(&mut self) -> Result<Vec<EquilibriumReport>, Error> {
-        let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
-        let settled = physics.settle(&self.scene)?;
-        self.static_iterations += settled.cables.iter().map(|report| report.iterations as u64).sum::<u64>();
-        let unstable =
-            self.cables().into_iter().zip(&settled.cables).filter(|(_, r)| !r.stable).map(|(c, _)| unstable(c));
-        let loose =
-            settled.unattached.iter().map(|&i| Warning::LeftAsDrawn { body: self.scene.bodies[i].name.clone() });
-        let warnings: Vec<Warning> = unstable.chain(loose).collect();
-        let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
-        let through = physics.passing(&self.scene, 0.0);
-        self.warnings.extend(warnings.into_iter().chain(through));
-        self.static_bodies = Some(BodyStatics::read(self, &settled));
-        Ok(settled.cables)
-    }
-
-    /// Reads the equilibrium of each cable.
-    fn read_statics(&mut self, reports: &[EquilibriumReport]) -> Result<(), Error> {
-        // copies, because reading reactions modifies a cable
-        let mut cables: Vec<Cable> = self.cables().into_iter().cloned().collect();
-        let each = cables.iter_mut().zip(reports).enumerate();
-        let read = each.map(|(i, (cable, report))| CableStatics::read(&self.scene, i, cable, report));
-        self.statics = Some(read.collect::<Result<Vec<_>, _>>()?);
-        Ok(())
     }
 
     /// Records the energy at the start.
@@ -276,13 +174,4 @@ impl World {
             None => self.alone.iter().map(Cable::time).fold(f64::INFINITY, f64::min),
         }
     }
-}
-
-/// Returns the warning about an equilibrium that is not stable.
-fn unstable(cable: &Cable) -> Warning {
-    let strain = |s: f64| cable.sample(s).map_or(0.0, |sample| sample.green_strain);
-    let compressed = cable.node_arc_lengths().into_iter().map(strain).fold(0.0, f64::min);
-    let beyond = compressed < -1e-3 && cable.rule().axial == AxialRule::Projected;
-    let (rule, compression) = (cable.rule().to_string(), beyond.then_some(-compressed));
-    Warning::UnstableEquilibrium { cable: cable.name().to_string(), rule, compression }
 }

@@ -112,7 +112,7 @@ pub(super) fn read(
 
 /// Compares the anchors with the points of the cables as drawn.
 pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable], purpose: Purpose) -> Result<(), Error> {
-    if purpose == Purpose::Static {
+    if purpose != Purpose::Run || scene.equilibrium {
         return Ok(());
     }
     for (k, attachment) in scene.attachments.iter().enumerate() {

@@ -96,6 +96,18 @@ impl Scene {
         Ok(())
     }
 
+    /// Sets a cable that is in equilibrium in motion, if the scene says so; with `ramps`, adds the loads that have one.
+    ///
+    /// # Errors
+    /// [`lariat_ancf::Error`]; not for a checked scene.
+    pub fn set_off(&self, cable: &mut Cable, index: usize, ramps: bool) -> Result<(), Error> {
+        if ramps {
+            self.add_loads(cable, index, true, false)?;
+        }
+        let moves = (self.cables[index].velocity, self.cables[index].angular_velocity) != Default::default();
+        if moves { self.set_in_motion(cable, index) } else { Ok(()) }
+    }
+
     /// Sets the initial rigid motion of a cable, with supported points at rest.
     ///
     /// # Errors

@@ -60,6 +60,18 @@ pub enum Purpose {
     Run,
     /// For the static equilibrium: no duration needed, anchors anywhere.
     Static,
+    /// For a run that starts from the state that statics wrote: anchors anywhere.
+    Resume,
+}
+
+choice! {
+    /// How a scene starts.
+    enum Start {
+        /// Each cable as it says, bodies as drawn.
+        Drawn = "drawn",
+        /// In static equilibrium.
+        Equilibrium = "equilibrium",
+    }
 }
 
 choice! {
@@ -81,6 +93,9 @@ table! {
         duration: Option<f64> = ("required by `lariat run`"), Kind::Number(POSITIVE), "s";
         /// Host step, the step of Rapier: at most 1e8 steps in all. The default is 1/60 s.
         dt: f64 = 0.016666666666666666, Kind::Number(POSITIVE), "s";
+        /// `"drawn"` starts each cable by its own `initial` and bodies where they are drawn; `"equilibrium"` starts all cables and the dynamic
+        /// bodies on them in one equilibrium, as `lariat static` finds it but without loads that have a ramp, and then with the velocities that are given.
+        initial: Start = "drawn", Kind::Choice(Start::names);
         /// Gravity.
         gravity: Vector3<f64> = [0.0, -9.81, 0.0], VECTOR, "m/s^2";
         /// Computes the bodies, and the junctions and sheaves of cables.
@@ -115,6 +130,8 @@ pub struct Scene {
     pub duration: f64,
     /// Host step in s.
     pub dt: f64,
+    /// Whether a run starts in static equilibrium of all cables and bodies.
+    pub equilibrium: bool,
     /// Gravity in m/s^2.
     pub gravity: Vector3<f64>,
     /// What moves bodies.
@@ -151,7 +168,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     let duration = match (table.duration, purpose) {
         (Some(duration), _) => duration,
         (None, Purpose::Static) => 0.0,
-        (None, Purpose::Run) => return Err(doc.missing(&root.key("duration"))),
+        (None, Purpose::Run | Purpose::Resume) => return Err(doc.missing(&root.key("duration"))),
     };
     let dt = table.dt;
     if duration / dt > MAX_COUNT {
@@ -170,6 +187,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         name: table.name.unwrap_or_else(|| fallback.to_string()),
         duration,
         dt,
+        equilibrium: table.initial == Start::Equilibrium,
         gravity: table.gravity,
         engine,
         solver_iterations: table.solver_iterations.map(|n| n as usize),

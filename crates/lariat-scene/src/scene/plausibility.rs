@@ -36,7 +36,7 @@ impl Scene {
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
         warnings.extend(self.moments_along());
-        if purpose == Purpose::Run {
+        if purpose != Purpose::Static {
             warnings.extend(self.falling());
             warnings.extend(self.unfinished_ramps());
         }

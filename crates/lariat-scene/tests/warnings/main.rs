@@ -17,7 +17,7 @@ fn warned(text: &str, purpose: Purpose) -> Vec<Warning> {
     let mut warn = |warning: &Warning| told.push(warning.clone());
     let mut options = Options { warn: Some(&mut warn), ..Options::default() };
     let outcome: Result<Summary, Error> = match purpose {
-        Purpose::Run => run::run(&scene, folder.path(), &mut options),
+        Purpose::Run | Purpose::Resume => run::run(&scene, folder.path(), &mut options),
         Purpose::Static => run::statics(&scene, folder.path(), &mut options),
     };
     let json = std::fs::read_to_string(folder.path().join("summary.json")).unwrap();

@@ -9,7 +9,7 @@ mod tables;
 
 use clap::{Args, Parser, Subcommand};
 use lariat_ancf::study::Resolution;
-use lariat_scene::run::{self, Options, Summary};
+use lariat_scene::run::{self, Options, State, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::cell::RefCell;
 use std::io::{self, Write};
@@ -32,8 +32,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Run a scene: writes DIR/summary.json, DIR/probes/*.csv and DIR/view.html, and removes what the last run wrote there
-    Run(SceneArguments),
-    /// Find the static equilibrium of a scene: prints it, and writes the same files, at t = 0
+    Run(RunArguments),
+    /// Find the static equilibrium of a scene: prints it, and writes the same files, at t = 0, and DIR/state, which a run can start from
     Static(SceneArguments),
     /// Run a scene over a grid of values, on all threads: writes DIR/rows.jsonl and DIR/table.csv
     Sweep(sweep::SweepArguments),
@@ -79,10 +79,19 @@ struct SceneArguments {
     usd: bool,
 }
 
+#[derive(Args)]
+struct RunArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Start from the equilibrium that `lariat static` of the same scene wrote to this folder
+    #[arg(long, value_name = "DIR", conflicts_with = "error")]
+    from: Option<PathBuf>,
+}
+
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match cli.command {
-        Command::Run(arguments) => run_scene(&arguments).map(|summary| describe::run(&summary, &arguments.out)),
+        Command::Run(arguments) => run_scene(&arguments).map(|summary| describe::run(&summary, &arguments.scene.out)),
         Command::Static(arguments) => {
             find_static(&arguments).map(|summary| describe::statics(&summary, &arguments.out))
         }
@@ -107,8 +116,11 @@ fn main() -> ExitCode {
     }
 }
 
-fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
-    let scene = Scene::read(&arguments.scene, &arguments.set, Purpose::Run)?;
+fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<Summary, Error> {
+    let purpose = if from.is_some() { Purpose::Resume } else { Purpose::Run };
+    let scene = Scene::read(&arguments.scene, &arguments.set, purpose)?;
+    // read before the folder of results is cleared, which may be the same
+    let from = from.as_deref().map(State::read).transpose()?;
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     let handler = ctrlc::set_handler(move || {
@@ -130,6 +142,7 @@ fn run_scene(arguments: &SceneArguments) -> Result<Summary, Error> {
         error: arguments.error,
         pilot: Some(&mut pilot),
         usd: arguments.usd,
+        from,
     };
     let outcome = run::run(&scene, &arguments.out, &mut options);
     bar.borrow().finish();

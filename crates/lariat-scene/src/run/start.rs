@@ -1,0 +1,170 @@
+//! How the world of a scene starts: as drawn, in equilibrium, or from a state that statics wrote.
+//!
+//! | start | cables | dynamic bodies | loads with a ramp |
+//! |---|---|---|---|
+//! | drawn | by `initial` of each, with bodies held | as drawn | begin at zero |
+//! | `initial = "equilibrium"` of the scene | one equilibrium of all | as cables | begin at zero |
+//! | statics, and a run from their state | one equilibrium of all | as cables | in full |
+
+use super::readings::pull;
+use super::state::State;
+use super::{BodyStatics, CableStatics, World};
+use crate::error::Error;
+use crate::scene::{Purpose, Scene};
+use crate::warning::Warning;
+use lariat_ancf::{At, AxialRule, Cable, EquilibriumReport, Support};
+
+impl World {
+    /// Brings the cables to their start: static equilibrium where the scene asks for it, with
+    /// bodies held where they are drawn, on which cables with contact lie; loads; initial motion.
+    /// For a run with Rapier the cables are then attached to the bodies. For statics, and for a
+    /// scene that starts in equilibrium, all cables go to equilibrium, and with Rapier the dynamic
+    /// bodies attached to them, too.
+    ///
+    /// # Errors
+    /// [`Error::Mechanics`] if there is no equilibrium, [`Error::Body`] for statics of a body with a joint or a contact.
+    pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
+        let fully = purpose == Purpose::Static;
+        let settles = fully || self.scene.equilibrium;
+        let World { scene, alone, warnings, static_iterations, physics, .. } = self;
+        if settles && let Some(sheave) = scene.sheaves.first() {
+            let cable = scene.cables[sheave.cables[0]].name.clone();
+            let reason = "its end is at a sheave, whose equilibrium is not computed: run the scene until it rests";
+            return Err(lariat_ancf::Error::ReelPlace { cable, reason }.into());
+        }
+        warnings.extend(scene.warnings(purpose));
+        let mut held_by = vec![Default::default(); scene.attachments.len()];
+        let mut reports = Vec::new();
+        for (i, cable) in alone.iter_mut().enumerate() {
+            scene.add_loads(cable, i, false, fully)?;
+            if fully {
+                scene.add_loads(cable, i, true, true)?;
+            }
+            if settles || scene.cables[i].equilibrium {
+                scene.move_to_anchors(cable, i)?;
+                let report = match physics {
+                    // statics of bodies begin without what the cable can touch
+                    Some(physics) if !settles => physics.equilibrium_among(scene, cable)?,
+                    _ => cable.equilibrium()?,
+                };
+                *static_iterations += report.iterations as u64;
+                // with bodies this is where statics begin
+                if !(report.stable || settles && physics.is_some()) {
+                    warnings.push(unstable(cable));
+                }
+                reports.push(report);
+            }
+            if physics.is_none() && settles {
+                if !fully {
+                    scene.set_off(cable, i, true)?;
+                }
+                continue;
+            }
+            release(scene, cable, i, &mut held_by)?;
+            if !settles {
+                scene.add_loads(cable, i, true, false)?;
+                scene.set_in_motion(cable, i)?;
+                if !scene.cables[i].equilibrium {
+                    warnings.extend(scene.drawn_corner(i, cable));
+                }
+            }
+        }
+        if let Some(physics) = physics {
+            physics.take(scene, std::mem::take(alone), &held_by)?;
+            if settles {
+                reports = self.settle(fully)?;
+            }
+        }
+        if fully {
+            return self.read_statics(&reports);
+        }
+        if let Some(physics) = self.physics.as_mut().filter(|_| settles) {
+            physics.set_off(&self.scene)?;
+        }
+        self.look_at_start()
+    }
+
+    /// Starts from a state that statics of the same scene wrote, with velocities as the scene says;
+    /// all loads act in full.
+    ///
+    /// # Errors
+    /// [`Error::State`] for the state of another scene.
+    pub fn resume(&mut self, state: &State) -> Result<(), Error> {
+        self.warnings.extend(self.scene.warnings(Purpose::Resume));
+        state.put(self)?;
+        for (i, cable) in self.alone.iter_mut().enumerate() {
+            self.scene.set_off(cable, i, false)?;
+        }
+        if let Some(physics) = &mut self.physics {
+            physics.set_off(&self.scene)?;
+        }
+        self.look_at_start()
+    }
+
+    /// Warns of what the start of a run with bodies shows.
+    fn look_at_start(&mut self) -> Result<(), Error> {
+        if let Some(physics) = &mut self.physics {
+            self.warnings.extend(physics.jolts(&self.scene)?);
+            self.warnings.extend(physics.inside(&self.scene));
+        }
+        Ok(())
+    }
+
+    /// Moves cables and bodies to equilibrium, and returns the reports of the cables.
+    fn settle(&mut self, fully: bool) -> Result<Vec<EquilibriumReport>, Error> {
+        let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
+        let settled = physics.settle(&self.scene, fully)?;
+        self.static_iterations += settled.cables.iter().map(|report| report.iterations as u64).sum::<u64>();
+        let unstable =
+            self.cables().into_iter().zip(&settled.cables).filter(|(_, r)| !r.stable).map(|(c, _)| unstable(c));
+        let loose =
+            settled.unattached.iter().map(|&i| Warning::LeftAsDrawn { body: self.scene.bodies[i].name.clone() });
+        let warnings: Vec<Warning> = unstable.chain(loose.filter(|_| fully)).collect();
+        let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
+        let through = physics.passing(&self.scene, 0.0);
+        self.warnings.extend(warnings.into_iter().chain(through));
+        if fully {
+            self.static_bodies = Some(BodyStatics::read(self, &settled));
+        }
+        Ok(settled.cables)
+    }
+
+    /// Reads the equilibrium of each cable.
+    fn read_statics(&mut self, reports: &[EquilibriumReport]) -> Result<(), Error> {
+        // copies, because reading reactions modifies a cable
+        let mut cables: Vec<Cable> = self.cables().into_iter().cloned().collect();
+        let each = cables.iter_mut().zip(reports).enumerate();
+        let read = each.map(|(i, (cable, report))| CableStatics::read(&self.scene, i, cable, report));
+        self.statics = Some(read.collect::<Result<Vec<_>, _>>()?);
+        Ok(())
+    }
+}
+
+/// Frees the points of a cable that bodies or junctions hold from now on, and notes what held them.
+fn release(
+    scene: &Scene,
+    cable: &mut Cable,
+    index: usize,
+    held_by: &mut [(lariat_ancf::Vector3<f64>, lariat_ancf::Vector3<f64>)],
+) -> Result<(), Error> {
+    let by_bodies = |k: &usize| scene.attachments[*k].cable == index && scene.attachments[*k].body.is_some();
+    for k in (0..scene.attachments.len()).filter(by_bodies) {
+        held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
+    }
+    for k in (0..scene.attachments.len()).filter(by_bodies) {
+        cable.set_support(At::ArcLength(scene.attachments[k].arc_length), Support::default())?;
+    }
+    for &(_, arc_length) in scene.tied(index) {
+        cable.set_support(At::ArcLength(arc_length), Support::default())?;
+    }
+    Ok(())
+}
+
+/// Returns the warning about an equilibrium that is not stable.
+fn unstable(cable: &Cable) -> Warning {
+    let strain = |s: f64| cable.sample(s).map_or(0.0, |sample| sample.green_strain);
+    let compressed = cable.node_arc_lengths().into_iter().map(strain).fold(0.0, f64::min);
+    let beyond = compressed < -1e-3 && cable.rule().axial == AxialRule::Projected;
+    let (rule, compression) = (cable.rule().to_string(), beyond.then_some(-compressed));
+    Warning::UnstableEquilibrium { cable: cable.name().to_string(), rule, compression }
+}

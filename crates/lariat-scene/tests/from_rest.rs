@@ -1,0 +1,248 @@
+//! Runs that start from equilibrium: `initial = "equilibrium"` of a scene, and `lariat run --from`. Whatever is in equilibrium stays where it is.
+
+use lariat_scene::run::{self, Options, State, World};
+use lariat_scene::{Error, Purpose, Scene};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+const ROPE: &str = "section = { round = 0.02 }\ndensity = 2000.0\nyoungs_modulus = 1.0e9\n";
+
+/// Returns a cable; `ends` are the bodies at its ends with their anchors.
+fn cable(name: &str, [from, to]: [[f64; 3]; 2], length: f64, rest: &str, ends: [&str; 2]) -> String {
+    let [a, b] = ends;
+    format!(
+        "[[cable]]\nname = \"{name}\"\npoints = [{from:?}, {to:?}]\nlength = {length}\n{rest}\n\
+         [[attachment]]\ncable = \"{name}\"\nat = \"start\"\n{a}\n[[attachment]]\ncable = \"{name}\"\nat = \"end\"\n{b}\n"
+    )
+}
+
+fn on(body: &str, anchor: [f64; 3]) -> String {
+    format!("body = \"{body}\"\nanchor = {anchor:?}\n")
+}
+
+const WORLD: &str = "body = \"world\"\n";
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A floating platform, lifted at a point beside its centre, on `lines` mooring lines.
+fn platform(lines: u32, lift: f64, point: [f64; 3]) -> String {
+    let mut text = format!(
+        "[[body]]\nname = \"platform\"\nshape = {{ cuboid = [2.0, 0.5, 2.0] }}\nmass = 2000.0\nposition = [0.0, 0.0, 0.0]\n\
+         [[load]]\nbody = \"platform\"\npoint = {point:?}\nforce = [500.0, {lift:?}, 100.0]\n"
+    );
+    for k in 0..lines {
+        let (z, x) = (0.1 + std::f64::consts::TAU * f64::from(k) / f64::from(lines)).sin_cos();
+        let (foot, eye) = ([30.0 * x, -40.0, 30.0 * z], [2.0 * x, -0.5, 2.0 * z]);
+        let rest = format!("elements = 12\n{ROPE}");
+        text += &cable(&format!("l{k}"), [foot, eye], 49.5, &rest, [WORLD, &on("platform", eye)]);
+    }
+    text
+}
+
+/// A box on eight taut cables.
+fn driven(mass: f64, stretch: f64) -> String {
+    let at = [0.1, 0.0, 0.05];
+    let mut text = format!(
+        "[[body]]\nname = \"box\"\nshape = {{ cuboid = [0.3, 0.2, 0.3] }}\nmass = {mass:?}\nposition = {at:?}\n"
+    );
+    for k in 0..8 {
+        let [x, y, z] = [k & 1, k >> 1 & 1, k >> 2].map(|bit| f64::from(2 * bit - 1));
+        let (far, eye) = ([4.0 * x, 2.5 * y, 3.0 * z], [0.3 * x, -0.2 * y, 0.3 * z]);
+        let to = [0, 1, 2].map(|i| at[i] + eye[i]);
+        let rest = "elements = 5\nsection = { round = 0.003 }\ndensity = 7800.0\nyoungs_modulus = 1.0e11\n";
+        text += &cable(&format!("c{k}"), [far, to], distance(far, to) * stretch, rest, [WORLD, &on("box", eye)]);
+    }
+    text
+}
+
+/// A bar in two slings of different lengths.
+fn slung(mass: f64) -> String {
+    let mut text = format!(
+        "[[body]]\nname = \"bar\"\nshape = {{ cuboid = [1.5, 0.05, 0.05] }}\nmass = {mass:?}\nposition = [0.0, -2.0, 0.0]\n"
+    );
+    for (name, x, length) in [("a", -1.2, 2.3), ("b", 1.4, 2.5)] {
+        text += &cable(name, [[0.0; 3], [x, -1.95, 0.0]], length, ROPE, [WORLD, &on("bar", [x, 0.05, 0.0])]);
+    }
+    text
+}
+
+/// A bridge of planks on two ropes.
+fn bridge(planks: u32, mass: f64) -> String {
+    let mut text = String::new();
+    for (name, z) in [("l", -0.5), ("r", 0.5)] {
+        let rest = format!("elements = 22\n{ROPE}");
+        text += &cable(name, [[0.0, 0.0, z], [12.0, 0.0, z]], 12.4, &rest, [WORLD, WORLD]);
+    }
+    for i in 1..=planks {
+        let t = f64::from(i) / f64::from(planks + 1);
+        let (x, y) = (12.0 * t, -4.8 * t * (1.0 - t));
+        // writing to a String cannot fail
+        let _ = write!(
+            text,
+            "[[body]]\nname = \"p{i}\"\nshape = {{ cuboid = [0.2, 0.03, 0.6] }}\nmass = {mass:?}\nposition = [{x:?}, {y:?}, 0.0]\n"
+        );
+        for (name, z) in [("l", -0.5), ("r", 0.5)] {
+            let anchor = on(&format!("p{i}"), [0.0, 0.03, z]);
+            let _ = write!(text, "[[attachment]]\ncable = \"{name}\"\nat = {:?}\n{anchor}", 12.4 * t);
+        }
+    }
+    text
+}
+
+/// A mooring line that lies on the seabed for a part, in a current.
+fn mooring(length: f64, elements: u32, current: [f64; 3]) -> String {
+    let rest = format!(
+        "elements = {elements}\naxial_stiffness = 1.0e8\nbending_stiffness = 1000.0\nmass_per_length = 60.0\n\
+         [cable.contact]\nradius = 0.05\nfriction = 0.5\n[cable.drag]\nfluid_density = 1025.0\ndiameter = 0.1\nflow = {{ velocity = {current:?} }}\n"
+    );
+    let line = cable("chain", [[0.0, 0.05, 0.0], [200.0, 60.0, 0.0]], length, &rest, [WORLD, WORLD]);
+    let line = line.replace("points = [[0.0, 0.05, 0.0], ", "points = [[0.0, 0.05, 0.0], [150.0, 0.05, 0.0], ");
+    "[[body]]\nname = \"seabed\"\nkind = \"fixed\"\nshape = { plane = [0.0, 1.0, 0.0] }\nposition = [0.0, 0.0, 0.0]\n"
+        .to_string()
+        + &line
+}
+
+fn parse(text: &str, purpose: Purpose) -> Scene {
+    Scene::parse("rest.toml", text, &[], purpose).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Returns positions of all nodes and bodies, and the total energy.
+fn places(world: &World) -> (Vec<[f64; 3]>, f64) {
+    let nodes = world.cables();
+    let nodes = nodes.iter().flat_map(|cable| (0..cable.nodes()).map(|i| cable.node_position(i).into()));
+    let bodies = (0..world.scene().bodies.len()).filter_map(|i| world.body(i)).map(|state| state.position.into());
+    (nodes.chain(bodies).collect(), world.energy(None).total())
+}
+
+/// No node and no body moves by 1e-6 m in 10 s, and the energy stays within 1e-6 J and 1e-7 of its amount. A load on a body has
+/// the single precision of Rapier: a platform that is held by little more than its lines' slope moves as far as half a unit in the
+/// last place of its lift moves it against that slope, the net lift over the depth.
+#[test]
+fn what_starts_in_equilibrium_stays_where_it_is() {
+    let slope = |lift: f64| (lift - 2000.0 * 9.81) / 40.0;
+    let single = |lift: f64| (0.5 * f64::from(f32::EPSILON) * lift / slope(lift)).max(1e-6);
+    for (what, text, most) in [
+        ("platform of three lines", platform(3, 24000.0, [0.0, 0.3, 0.0]), 1e-6),
+        ("platform of four lines, lifted below", platform(4, 22000.0, [0.3, -0.4, 0.1]), single(22000.0)),
+        ("eight cables", driven(40.0, 0.999), 1e-6),
+        ("eight cables, heavy", driven(150.0, 0.9985), 1e-6),
+        ("slung bar", slung(120.0), 1e-6),
+        ("light slung bar", slung(3.0), 1e-6),
+        ("bridge of ten", bridge(10, 15.0), 1e-6),
+        ("bridge of six", bridge(6, 60.0), 1e-6),
+        ("mooring line", mooring(229.0, 60, [0.3, 0.0, 0.2]), 1e-6),
+        ("mooring line, other mesh", mooring(232.0, 35, [-0.1, 0.0, 0.4]), 1e-6),
+    ] {
+        let scene = parse(&format!("duration = 10.0\ninitial = \"equilibrium\"\n{text}"), Purpose::Run);
+        let mut world = World::build(&scene).unwrap();
+        world.start(Purpose::Run).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let (start, energy) = places(&world);
+        let mut moved = 0.0f64;
+        for k in 1..=600 {
+            world.advance(f64::from(k) / 60.0).unwrap();
+            if k % 60 == 0 {
+                let (now, total) = places(&world);
+                moved = start.iter().zip(now).map(|(a, b)| distance(*a, b)).fold(moved, f64::max);
+                // the weight of what moved is energy, too
+                let bound = 1e-6 + 1e-7 * energy.abs() + 25000.0 * moved;
+                assert!((total - energy).abs() < bound, "{what}: {energy} -> {total} J");
+            }
+        }
+        println!("{what}: {moved:.1e} m");
+        assert!(moved < most, "{what}: {moved:.1e} m of {most:.1e}");
+    }
+}
+
+fn probed(text: &str) -> String {
+    let probes = "[[probe]]\nname = \"all\"\nenergy = \"all\"\nevery = 0.05\n[[probe]]\nname = \"l0\"\ncable = \"l0\"\nat = 20.0\nevery = 0.05\n";
+    format!("duration = 1.0\n{text}{probes}")
+}
+
+fn rows(folder: &Path) -> Vec<String> {
+    ["all", "l0"].map(|probe| fs::read_to_string(folder.join(format!("probes/{probe}.csv"))).unwrap()).to_vec()
+}
+
+/// A run from the file is bitwise the run that goes on, also one that is set in motion.
+#[test]
+fn a_run_from_the_state_of_statics_starts_bit_for_bit() {
+    for kick in ["", "velocity = [0.0, 0.4, 0.1]\n"] {
+        let text = probed(&platform(3, 24000.0, [0.0, 0.3, 0.0]));
+        let text = text.replace("mass = 2000.0\n", &format!("mass = 2000.0\n{kick}"));
+        let folder = tempfile::tempdir().unwrap();
+        let [found, went_on, from] = ["found", "went_on", "from"].map(|name| folder.path().join(name));
+        run::statics(&parse(&text, Purpose::Static), &found, &mut Options::default()).unwrap();
+        let at_once = parse(&format!("initial = \"equilibrium\"\n{text}"), Purpose::Run);
+        run::run(&at_once, &went_on, &mut Options::default()).unwrap();
+        let mut options = Options { from: Some(State::read(&found).unwrap()), ..Options::default() };
+        run::run(&parse(&text, Purpose::Resume), &from, &mut options).unwrap();
+        assert_eq!(rows(&went_on), rows(&from), "{kick}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+    }
+}
+
+/// A load with a ramp acts in full in statics, and in the run from them; it begins at zero where the run finds its equilibrium itself.
+#[test]
+fn loads_with_a_ramp_act_in_full_from_a_state() {
+    let ramped = platform(3, 24000.0, [0.0, 0.3, 0.0]).replace("[[load]]\n", "[[load]]\nramp = 0.5\n");
+    let still = "[[load]]\nbody = \"platform\"\nforce = [0.0, 22000.0, 0.0]\n";
+    let text = probed(&(ramped.replace("24000.0", "2000.0") + still));
+    let folder = tempfile::tempdir().unwrap();
+    run::statics(&parse(&text, Purpose::Static), folder.path(), &mut Options::default()).unwrap();
+    let moved = |mut world: World, start: Result<(), Error>| {
+        start.unwrap();
+        let before = places(&world).0;
+        (1..=60).for_each(|k| world.advance(f64::from(k) / 60.0).unwrap());
+        before.iter().zip(places(&world).0).map(|(a, b)| distance(*a, b)).fold(0.0, f64::max)
+    };
+    let scene = parse(&text, Purpose::Resume);
+    let mut world = World::build(&scene).unwrap();
+    let start = world.resume(&State::read(folder.path()).unwrap());
+    assert!(moved(world, start) < 1e-6);
+    let mut world = World::build(&parse(&format!("initial = \"equilibrium\"\n{text}"), Purpose::Run)).unwrap();
+    let start = world.start(Purpose::Run);
+    assert!(moved(world, start) > 1e-2);
+}
+
+/// The state of another scene is refused by the name of what differs; duration, step and probes may.
+#[test]
+fn a_state_of_another_scene_is_refused() {
+    let text = probed(&platform(3, 24000.0, [0.0, 0.3, 0.0]));
+    let folder = tempfile::tempdir().unwrap();
+    run::statics(&parse(&text, Purpose::Static), folder.path(), &mut Options::default()).unwrap();
+    let state = State::read(folder.path()).unwrap();
+    let resume = |text: &str| {
+        let scene = parse(text, Purpose::Resume);
+        World::build(&scene).unwrap().resume(&state).map_err(|error| (error.exit_code(), error.to_string()))
+    };
+    resume(&text.replace("duration = 1.0", "duration = 3.0\ndt = 0.01").replace("every = 0.05", "every = 0.1"))
+        .unwrap();
+    for (from, to, named) in [
+        ("mass = 2000.0", "mass = 2000.5", "body \"platform\""),
+        ("24000.0", "24001.0", "load 0 on a body"),
+        ("elements = 12", "elements = 13", "cable \"l0\""),
+        ("duration = 1.0", "duration = 1.0\ngravity = [0.0, -9.8, 0.0]", "`gravity`"),
+        ("\"l2\"", "\"l9\"", "cable \"l9\""),
+    ] {
+        let (code, error) = resume(&text.replace(from, to)).unwrap_err();
+        assert!(code == 2 && error.contains("another scene") && error.contains(named), "{error}");
+    }
+    let (code, error) = resume(
+        &(text.clone()
+            + "[[body]]\nname = \"rock\"\nkind = \"fixed\"\nshape = { ball = 1.0 }\nposition = [9.0, 0.0, 0.0]\n"),
+    )
+    .unwrap_err();
+    assert!(code == 2 && error.contains("body \"rock\""), "{error}");
+    let file = folder.path().join("state");
+    let good = fs::read_to_string(&file).unwrap();
+    for bad in [good.replacen("0.1", "0.2", 3), good[..good.len() - 7].to_string(), "{}\n".to_string(), String::new()] {
+        fs::write(&file, bad).unwrap();
+        let error = State::read(folder.path()).unwrap_err();
+        assert!(matches!(error, Error::State { .. }), "{error}");
+    }
+    let mut options = Options { from: Some(state), error: Some(1e-3), ..Options::default() };
+    let error = run::run(&parse(&text, Purpose::Resume), folder.path(), &mut options).unwrap_err();
+    assert!(matches!(error, Error::State { .. }), "{error}");
+}
