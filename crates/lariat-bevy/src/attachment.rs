@@ -44,17 +44,20 @@ pub struct Attachment {
     /// again with another cable or body. Default: a gap of more than 1e-3 m is an error
     /// ([`AttachmentFailed`](crate::event::AttachmentFailed)).
     pub gap: Gap,
+    /// Direction of the tangent of a clamp, of any size, in body axes; in world axes for the world. Default: that of the cable where it is
+    /// attached, of a slack cable as it was laid that of the drawing.
+    pub direction: Option<Vector3<f64>>,
 }
 
 impl Attachment {
     /// Prescribes the position of a point of `cable`.
     pub fn ball(cable: Entity, at: impl Into<At>) -> AttachmentDraft {
-        AttachmentDraft { cable, at: at.into(), kind: AttachmentKind::Ball }
+        AttachmentDraft { cable, at: at.into(), kind: AttachmentKind::Ball, direction: None }
     }
 
     /// Prescribes the position of a point of `cable` and the direction of its tangent.
     pub fn clamp(cable: Entity, at: impl Into<At>) -> AttachmentDraft {
-        AttachmentDraft { cable, at: at.into(), kind: AttachmentKind::Clamp }
+        AttachmentDraft { cable, at: at.into(), kind: AttachmentKind::Clamp, direction: None }
     }
 }
 
@@ -64,21 +67,31 @@ pub struct AttachmentDraft {
     cable: Entity,
     at: At,
     kind: AttachmentKind,
+    direction: Option<Vector3<f64>>,
 }
 
 impl AttachmentDraft {
+    /// Sets the direction of the tangent of a clamp, towards growing arc length: in body axes, or those of the world.
+    pub fn along(mut self, direction: impl Into<Point>) -> Self {
+        self.direction = Some(direction.into().0);
+        self
+    }
+
+    fn attachment(&self, world: bool) -> Attachment {
+        let AttachmentDraft { at, kind, direction, .. } = *self;
+        Attachment { at, kind, anchor: None, world, gap: Gap::default(), direction }
+    }
+
     /// Attaches to a body, at the present position of the cable's point unless
     /// [`at`](ToBodyBundle::at) sets another anchor.
     pub fn to(self, body: Entity) -> ToBodyBundle {
-        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: false, gap: Gap::default() };
-        ToBodyBundle { attachment, cable: OnCable(self.cable), body: ToBody(body) }
+        ToBodyBundle { attachment: self.attachment(false), cable: OnCable(self.cable), body: ToBody(body) }
     }
 
     /// Attaches to the world, at the present position of the cable's point unless
     /// [`at`](ToWorldBundle::at) sets another.
     pub fn to_world(self) -> ToWorldBundle {
-        let attachment = Attachment { at: self.at, kind: self.kind, anchor: None, world: true, gap: Gap::default() };
-        ToWorldBundle { attachment, cable: OnCable(self.cable) }
+        ToWorldBundle { attachment: self.attachment(true), cable: OnCable(self.cable) }
     }
 }
 

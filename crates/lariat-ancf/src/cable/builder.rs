@@ -1,5 +1,7 @@
 //! Building a cable.
 
+use super::clamp::{is_turned, unit};
+use super::layout::{Laid, SLACK};
 use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
 use crate::at::At;
@@ -9,7 +11,7 @@ use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::Fidelity;
 use crate::load::PointLoad;
-use crate::model::{Corner, Model, STANDARD_GRAVITY};
+use crate::model::{Corner, Drawn, Model, STANDARD_GRAVITY};
 use crate::obstacle::Obstacles;
 use crate::point::Point;
 use crate::reel::Reels;
@@ -25,7 +27,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug)]
 enum Hold {
     Pin,
-    Clamp,
+    /// Along this direction, or that of the drawing.
+    Clamp(Option<Vector3<f64>>),
 }
 
 /// Builds a [`Cable`]. Needed: two points and a section; everything else has a default.
@@ -179,10 +182,17 @@ impl CableBuilder {
         self
     }
 
-    /// Holds the position and the direction of the tangent of a point where it starts; a node is
-    /// placed there.
+    /// Holds the position of a point where it starts, and its tangent in the direction of the polyline there: at the start along the
+    /// first of its segments, also if the cable is longer than drawn. A node is placed there. A slack cable starts in static
+    /// equilibrium between its clamps, under its weight, with free ends held where they are drawn.
     pub fn clamp(mut self, at: impl Into<At>) -> Self {
-        self.holds.push((at.into(), Hold::Clamp));
+        self.holds.push((at.into(), Hold::Clamp(None)));
+        self
+    }
+
+    /// As [`clamp`](Self::clamp), with the tangent along `direction` (any length), towards growing arc length.
+    pub fn clamp_along(mut self, at: impl Into<At>, direction: impl Into<Point>) -> Self {
+        self.holds.push((at.into(), Hold::Clamp(Some(direction.into().0))));
         self
     }
 
@@ -299,6 +309,7 @@ impl CableBuilder {
             snapshot.state.q.extend(node.position.iter().chain(node.slope.iter()));
         }
         snapshot.state.v.resize(snapshot.state.q.len(), 0.0);
+        let drawn_ends = self.drawn_ends(&laid, &s, drawn);
         let model = Model {
             name: self.name.clone(),
             elements,
@@ -315,6 +326,7 @@ impl CableBuilder {
             strength: Default::default(),
             reels: Reels::default(),
             corners: laid.iter().filter_map(Corner::of).collect(),
+            drawn: drawn_ends,
             least_damping: 0.0,
         };
         // contact has one method that can step it
@@ -323,16 +335,31 @@ impl CableBuilder {
             None => Fidelity::default(),
         };
         let mut cable = Cable::from_parts(model, snapshot, default.integrator(f64::INFINITY))?;
+        let slack = !cable.model.drawn.is_empty();
+        let mut turned = Vec::new();
         for (at, hold) in self.holds {
             let node = cable.node(At::ArcLength(arc_length(at)?.min(length)))?;
             let slope = match hold {
                 Hold::Pin => SlopeSupport::Free,
-                Hold::Clamp => SlopeSupport::Direction(laid[node].slope.normalize()),
+                Hold::Clamp(given) => {
+                    let direction = match given {
+                        Some(given) => unit(given)?,
+                        None if slack => layout::directions(&self.points, &s)[node],
+                        None => laid[node].slope.normalize(),
+                    };
+                    if is_turned(&laid[node].slope, &direction) {
+                        turned.push((node, laid[node].slope));
+                    }
+                    SlopeSupport::Direction(direction)
+                }
             };
             cable.set_support(
                 At::Node(node),
                 Support { position: Some(Motion::fixed(laid[node].position)), slope, attached: false },
             )?;
+        }
+        if !turned.is_empty() {
+            cable.bend_to_clamps(&turned)?;
         }
         cable.set_rigid_motion(self.velocity, self.angular_velocity)?;
         for load in self.loads {
@@ -357,9 +384,20 @@ impl CableBuilder {
         for (at, hold) in &self.holds {
             let kept = &mut kept[near(arc_length(*at)?)];
             kept.position = true;
-            kept.slope |= matches!(hold, Hold::Clamp);
+            kept.slope |= matches!(hold, Hold::Clamp(_));
         }
         Ok(kept)
+    }
+
+    /// Returns the ends of a cable longer than drawn, of which `drawn` m are drawn; none if it is not.
+    fn drawn_ends(&self, laid: &[Laid], s: &[f64], drawn: f64) -> Vec<Drawn> {
+        let last = s.len() - 1;
+        if s[last] <= drawn * (1.0 + SLACK) {
+            return Vec::new();
+        }
+        let directions = layout::directions(&self.points, s);
+        let end = |k: usize| Drawn { position: laid[k].position, slope: laid[k].slope, direction: directions[k] };
+        [0, last].map(end).to_vec()
     }
 }
 

@@ -8,6 +8,9 @@
 
 use nalgebra::Vector3;
 
+/// Share by which a slack cable is longer than drawn, beyond rounding.
+pub(super) const SLACK: f64 = 1e-9;
+
 /// Where a node of a new cable lies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Laid {
@@ -23,7 +26,7 @@ pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector
     let length = s[s.len() - 1];
     let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
     let drawn: f64 = chords.iter().sum();
-    let slack = length > drawn * (1.0 + 1e-9);
+    let slack = length > drawn * (1.0 + SLACK);
     // arc length of the cable at each point, in proportion to the chords
     let mut at = vec![0.0];
     for chord in &chords {
@@ -53,8 +56,16 @@ pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector
         .collect()
 }
 
-/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an
-/// arc of a circle towards `sag` if that is not zero, else straight.
+/// The directions of the drawing itself at the arc lengths `s`, as unit vectors; at a corner the mean of both sides.
+pub(super) fn directions(points: &[Vector3<f64>], s: &[f64]) -> Vec<Vector3<f64>> {
+    let drawn: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+    let share = drawn / s[s.len() - 1];
+    let s: Vec<f64> = s.iter().map(|s| s * share).collect();
+    along_polyline(points, &s, Vector3::zeros()).iter().map(|laid| laid.slope.normalize()).collect()
+}
+
+/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an arc of a circle towards
+/// `sag` if that is not zero, else straight.
 fn segment(a: Vector3<f64>, b: Vector3<f64>, arc: f64, x: f64, sag: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let chord = b - a;
     let straight = (a + x * chord, chord / arc);

@@ -5,6 +5,7 @@
 //! | [`builder`], `layout` | building a cable |
 //! | `unstrained` | laying it around corners without strain |
 //! | `corner` | corners of the drawn shape, for parts that end there |
+//! | `clamp` | clamps, their directions, and the start shape between them |
 //! | `parts`, `check` | what steps it: its parts lent apart, and whether it can be stepped |
 //! | `state`, `snapshot` | reading and changing the state; snapshots |
 //! | `supports`, `loads`, `potentials`, `effects` | what acts on it, changed between steps |
@@ -17,6 +18,7 @@
 
 pub mod builder;
 mod check;
+mod clamp;
 mod contact;
 mod corner;
 mod effects;

@@ -99,11 +99,12 @@ pub trait Coupling {
     fn attach(&mut self, at: impl Into<At>) -> Result<usize, Error>;
 
     /// Gives the position of a node and the direction of its tangent to an island, for a
-    /// [`PinConstraint`](crate::island::PinConstraint) with a direction.
+    /// [`PinConstraint`](crate::island::PinConstraint) with a direction: `along`, or as [`clamp`](Cable::clamp).
     ///
     /// # Errors
-    /// As [`node`](Cable::node); [`Error::NoTangent`] if the tangent has no length.
-    fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error>;
+    /// As [`node`](Cable::node); [`Error::NoTangent`] if the tangent has no length; [`Error::InvalidValue`] for a direction that is zero or
+    /// not finite.
+    fn attach_clamped(&mut self, at: impl Into<At>, along: Option<Vector3<f64>>) -> Result<usize, Error>;
 
     /// Frees a node that was attached: its position, and its tangent if that was clamped to the
     /// body.
@@ -248,8 +249,8 @@ impl Coupling for Cable {
         Cable::attach(self, at)
     }
 
-    fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error> {
-        Cable::attach_clamped(self, at)
+    fn attach_clamped(&mut self, at: impl Into<At>, along: Option<Vector3<f64>>) -> Result<usize, Error> {
+        Cable::attach_clamped(self, at, along)
     }
 
     fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {

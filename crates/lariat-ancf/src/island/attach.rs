@@ -1,10 +1,10 @@
 //! Giving nodes of a cable to an island, and taking them back.
 
-use super::hold::vector;
 use crate::at::At;
 use crate::cable::Cable;
 use crate::error::Error;
 use crate::support::{SlopeSupport, Support};
+use nalgebra::Vector3;
 
 impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
@@ -30,13 +30,11 @@ impl Cable {
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).
-    pub(crate) fn attach_clamped(&mut self, at: impl Into<At>) -> Result<usize, Error> {
+    pub(crate) fn attach_clamped(&mut self, at: impl Into<At>, along: Option<Vector3<f64>>) -> Result<usize, Error> {
         let node = self.node(at)?;
-        let Some(tangent) = vector(&self.positions()[6 * node + 3..]).try_normalize(1e-9) else {
-            return Err(Error::NoTangent { cable: self.name().to_string(), node });
-        };
-        let support = Support { position: None, slope: SlopeSupport::Attached(tangent), attached: true };
-        self.set_support(At::Node(node), support)?;
+        let direction = self.direction_of_clamp(node, along)?;
+        let support = Support { position: None, slope: SlopeSupport::Attached(direction), attached: true };
+        self.hold_along(node, support, direction)?;
         Ok(node)
     }
 }

@@ -34,6 +34,14 @@ pub(crate) struct Corner {
     pub(crate) sides: [Vector3<f64>; 2],
 }
 
+/// An end of a slack cable as it was laid, and the direction in which it was drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Drawn {
+    pub(crate) position: Vector3<f64>,
+    pub(crate) slope: Vector3<f64>,
+    pub(crate) direction: Vector3<f64>,
+}
+
 /// The description of a cable; see [`CableBuilder`](crate::CableBuilder) for units and defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Model {
@@ -67,6 +75,9 @@ pub struct Model {
     /// Corners at nodes of the drawn shape.
     #[serde(default)]
     pub(crate) corners: Vec<Corner>,
+    /// Ends of a slack cable, whose tangents are not those of the drawing.
+    #[serde(default)]
+    pub(crate) drawn: Vec<Drawn>,
     /// Axial damping time in s that the cable has at least; set by the host, no part of a file.
     #[serde(skip)]
     pub(crate) least_damping: f64,

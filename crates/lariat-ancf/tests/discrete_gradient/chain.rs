@@ -73,7 +73,7 @@ impl Chain {
             }
             let direction = (next - at).normalize();
             let anchor = if bricks { random.vector() * 0.05 } else { Vector3::zeros() };
-            let node = if clamped { cable.attach_clamped(At::End) } else { cable.attach(At::End) }.unwrap();
+            let node = if clamped { cable.attach_clamped(At::End, None) } else { cable.attach(At::End) }.unwrap();
             let direction = clamped.then_some(direction);
             chain.pins.push(PinConstraint { cable: k, node, body: k, anchor, direction });
             chain.cables.push(cable);

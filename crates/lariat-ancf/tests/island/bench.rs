@@ -43,7 +43,7 @@ impl Scene {
 
     /// Clamps a node of a cable, in its present direction, to a point of a body.
     pub fn clamp(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
-        let node = self.cables[cable].attach_clamped(at).unwrap();
+        let node = self.cables[cable].attach_clamped(at, None).unwrap();
         let slope = Vector3::from_column_slice(&self.cables[cable].positions()[6 * node + 3..6 * node + 6]);
         let direction = Some(self.bodies[body].rotation.inverse() * slope.normalize());
         self.pins.push(PinConstraint { cable, node, body, anchor, direction });

@@ -32,7 +32,7 @@ fn solve(cables: &mut [Cable], bodies: &mut [RigidBody], pins: &[PinConstraint])
     for pin in pins {
         let at = At::Node(pin.node);
         if pin.direction.is_some() {
-            cables[pin.cable].attach_clamped(at).unwrap();
+            cables[pin.cable].attach_clamped(at, None).unwrap();
         } else {
             cables[pin.cable].attach(at).unwrap();
         }

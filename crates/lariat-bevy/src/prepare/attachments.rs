@@ -11,9 +11,9 @@ use crate::physics::Physics;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::{Commands, Has, Query, Ref, ResMut};
-use lariat_rapier::AttachmentHandle;
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::math::Vector;
+use lariat_rapier::{AttachmentHandle, AttachmentOptions};
 
 /// The components of an attachment, and its state.
 type Components = (
@@ -101,10 +101,11 @@ fn attach(
         Some(body) => handles.get(body).map_err(|_| Error::NotABody(body))?.handle,
         None => ground(cables, physics),
     };
-    let kind = attachment.kind.with_gap(attachment.gap);
+    let (kind, gap, direction) = (attachment.kind, attachment.gap, attachment.direction);
+    let options = AttachmentOptions { kind, gap, direction };
     let made = match attachment.anchor {
-        Some(anchor) => cables.set.attach(physics, handle, attachment.at, rigid, anchor, kind)?,
-        None => cables.set.attach_here(physics, handle, attachment.at, rigid, attachment.kind)?,
+        Some(anchor) => cables.set.attach(physics, handle, attachment.at, rigid, anchor, options)?,
+        None => cables.set.attach_here(physics, handle, attachment.at, rigid, options)?,
     };
     let link = AttachmentLink { entity, cable, body, handle: rigid, made: *attachment, counted: 0.0 };
     cables.links.attachments.insert(made, link);

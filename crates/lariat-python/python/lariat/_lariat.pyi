@@ -142,6 +142,7 @@ class Cable:
         angular_velocity: ArrayLike | None = None,
         fix: Place | Iterable[Place] | None = None,
         clamp: Place | Iterable[Place] | None = None,
+        clamp_along: Iterable[tuple[Place, ArrayLike]] | None = None,
         nodes_at: Sequence[float] | None = None,
         effects: Effects = None,
         damped_as: str | None = None,
@@ -153,7 +154,9 @@ class Cable:
         - ``rule``: "projected-3" (default), "G5-3", "ST2", "L2T2" ...
         - ``fidelity`` ("engineering" by default) or ``integrator``.
         - ``gravity``: m/s^2, default (0, -9.81, 0). ``velocity`` (m/s) and ``angular_velocity`` (rad/s): a rigid motion of the start.
-        - ``fix``, ``clamp``: points held as they start; a clamp holds the tangent, too. A node is placed there.
+        - ``fix``, ``clamp``: points held as they start; a clamp holds the tangent in the direction of the polyline, too, also
+          of a slack cable, which starts in equilibrium between its clamps. A node is placed there.
+        - ``clamp_along``: clamps with their directions, as pairs of a place and a vector of any size.
         - ``effects``: see lariat.effects. ``damped_as``: a kind of rope, see ``rope_kinds()``.
 
         Raises InvalidValueError, ShapeError, TooFewPointsError, CoincidentPointsError, ElementCountError, NoSectionError,
@@ -313,8 +316,9 @@ class Cable:
     def fix(self, at: Place) -> None:
         """Holds the position of a node where it is. Raises OutOfRangeError, NoNodeError."""
 
-    def clamp(self, at: Place) -> None:
-        """Holds the position of a node and the direction of its tangent as they are. Raises as ``fix``, and NoTangentError."""
+    def clamp(self, at: Place, direction: ArrayLike | None = None) -> None:
+        """Holds the position of a node as it is and its tangent along ``direction``, by default as it is; at an end of a slack cable as it
+        was laid, as drawn. Raises as ``fix``, NoTangentError, and InvalidValueError for a direction of size zero."""
 
     def release(self, at: Place) -> None:
         """Frees a node. Raises as ``fix``."""
@@ -596,9 +600,11 @@ class World:
         *,
         kind: Literal["ball", "clamp"] = "ball",
         gap: float | None = 1e-3,
+        direction: ArrayLike | None = None,
     ) -> int:
         """Attaches a point of a cable to a body: at ``anchor`` (m, body axes), by default where the point is now. ``gap``: the largest
-        distance in m that is closed; None: any. Returns the number of the attachment. Raises GapTooLongError, AlreadyAttachedError,
+        distance in m that is closed; None: any. ``direction``: of the tangent of a clamp, in body axes; by default as it is, of a slack
+        cable as it was laid that of the drawing. Returns the number of the attachment. Raises GapTooLongError, AlreadyAttachedError,
         NoBodyError, NoCableError, OutOfRangeError."""
 
     def detach(self, attachment: int) -> None:

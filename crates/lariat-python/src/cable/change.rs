@@ -19,17 +19,12 @@ impl Cable {
         self.change(py, |cable| cable.fix(at.0))
     }
 
-    /// Holds the position of a node and the direction of its tangent as they are.
-    fn clamp(&self, py: Python<'_>, at: Place) -> PyResult<()> {
-        self.change(py, |cable| {
-            let node = cable.node(at.0)?;
-            let slope = Vector3::from_column_slice(&cable.positions()[6 * node + 3..6 * node + 6]);
-            let Some(direction) = slope.try_normalize(1e-9) else {
-                return Err(Error::NoTangent { cable: cable.name().to_string(), node });
-            };
-            let position = Some(Motion::fixed(cable.node_position(node)));
-            let slope = SlopeSupport::Direction(direction);
-            cable.set_support(At::Node(node), Support { position, slope, ..Support::default() })
+    /// Holds the position of a node as it is, and its tangent in a direction: by default as it is, or as it was drawn.
+    #[pyo3(signature = (at, direction=None))]
+    fn clamp(&self, py: Python<'_>, at: Place, direction: Option<Vector>) -> PyResult<()> {
+        self.change(py, |cable| match direction {
+            None => cable.clamp(at.0),
+            Some(Vector(direction)) => cable.clamp_along(at.0, direction),
         })
     }
 

@@ -123,7 +123,7 @@ impl Cable {
     #[new]
     #[pyo3(signature = (points, section, *, length=None, elements=None, name="cable", rule=None, allow_rank_deficient=false,
         fidelity=None, integrator=None, gravity=None, velocity=None, angular_velocity=None, fix=None, clamp=None,
-        nodes_at=None, effects=None, damped_as=None))]
+        clamp_along=None, nodes_at=None, effects=None, damped_as=None))]
     fn py_new(
         points: Array,
         section: &Bound<'_, PyAny>,
@@ -139,6 +139,7 @@ impl Cable {
         angular_velocity: Option<Vector>,
         fix: Option<Places>,
         clamp: Option<Places>,
+        clamp_along: Option<Vec<(Place, Vector)>>,
         nodes_at: Option<Vec<f64>>,
         effects: Option<&Bound<'_, PyAny>>,
         damped_as: Option<&str>,
@@ -179,6 +180,8 @@ impl Cable {
         }
         builder = fix.unwrap_or_default().0.into_iter().fold(builder, |builder, at| builder.fix(at));
         builder = clamp.unwrap_or_default().0.into_iter().fold(builder, |builder, at| builder.clamp(at));
+        let along = clamp_along.unwrap_or_default().into_iter();
+        builder = along.fold(builder, |builder, (at, direction)| builder.clamp_along(at.0, direction.0));
         builder = nodes_at.unwrap_or_default().into_iter().fold(builder, |builder, s| builder.node_at(s));
         if let Some(effects) = effects {
             builder = builder.effects(self::effects(effects)?);

@@ -111,12 +111,12 @@ impl CoSimulation {
             if cable.support(At::Node(node))?.attached || link.ends.iter().any(|end| end.node == node) {
                 return Err(lariat_rapier::Error::AlreadyAttached { cable: cable.name().to_string(), node });
             }
-            let coordinates = Vector3::from_column_slice(&cable.positions()[6 * node + 3..6 * node + 6]);
             if clamp {
-                cable.attach_clamped(At::Node(node))?;
+                cable.attach_clamped(At::Node(node), None)?;
             } else {
                 cable.attach(At::Node(node))?;
             }
+            let coordinates = Vector3::from_column_slice(&cable.positions()[6 * node + 3..6 * node + 6]);
             let velocity = Vector3::from_column_slice(&cable.velocities()[6 * node..6 * node + 3]);
             let direction = clamp.then(|| rotation.inverse() * coordinates.normalize());
             let anchor = rotation.inverse() * (cable.node_position(node) - position);

@@ -18,7 +18,7 @@ use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
 use lariat_rapier::{
-    AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error, Gap, JunctionHandle, SheaveHandle,
+    AttachmentHandle, AttachmentKind, AttachmentOptions, CableHandle, CableSet, Error, Gap, JunctionHandle, SheaveHandle,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -148,7 +148,8 @@ impl World {
     }
 
     /// Attaches a point of a cable to a body: at `anchor` (m, body axes), by default where the point is now.
-    #[pyo3(signature = (cable, at, body, anchor=None, *, kind="ball", gap=1e-3))]
+    #[pyo3(signature = (cable, at, body, anchor=None, *, kind="ball", gap=1e-3, direction=None))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn attach(
         &self,
         py: Python<'_>,
@@ -158,16 +159,16 @@ impl World {
         anchor: Option<Vector>,
         kind: &str,
         gap: Option<f64>,
+        direction: Option<Vector>,
     ) -> PyResult<usize> {
         let (handle, kind) = (cable.handle_in(&self.0)?, self::kind(kind)?);
+        let gap = gap.map_or(Gap::Close, Gap::Refuse);
+        let options = AttachmentOptions { kind, gap, direction: direction.map(|v| v.0) };
         let attached = self.0.compute(py, |contents| {
             let Contents { world, set, .. } = contents;
             let attachment = match anchor {
-                None => set.attach_here(world, handle, at.0, body.0, kind),
-                Some(Vector(anchor)) => {
-                    let options = kind.with_gap(gap.map_or(Gap::Close, Gap::Refuse));
-                    set.attach(world, handle, at.0, body.0, anchor, options)
-                }
+                None => set.attach_here(world, handle, at.0, body.0, options),
+                Some(Vector(anchor)) => set.attach(world, handle, at.0, body.0, anchor, options),
             };
             attachment.map(|attachment| contents.add_attachment(attachment))
         });

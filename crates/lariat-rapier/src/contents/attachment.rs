@@ -7,6 +7,7 @@ use crate::handle::CableHandle;
 use crate::scales::HOST_ROUNDING;
 use crate::scales::contents::ATTACHMENT_GAP;
 use ::nalgebra::Vector3;
+use lariat_ancf::Point;
 use lariat_ancf::island::PinAccount;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
@@ -28,7 +29,12 @@ pub enum AttachmentKind {
 impl AttachmentKind {
     /// Attaches with this treatment of a gap.
     pub fn with_gap(self, gap: Gap) -> AttachmentOptions {
-        AttachmentOptions { kind: self, gap }
+        AttachmentOptions { kind: self, gap, direction: None }
+    }
+
+    /// Attaches with the tangent, towards growing arc length, along `direction` (body axes, any length). A ball has no direction.
+    pub fn along(self, direction: impl Into<Point>) -> AttachmentOptions {
+        AttachmentOptions { kind: self, direction: Some(direction.into().0), ..AttachmentOptions::default() }
     }
 }
 
@@ -76,6 +82,9 @@ pub struct AttachmentOptions {
     pub kind: AttachmentKind,
     /// What to do if the cable is not at the anchor. Default: reject gaps of more than 1e-3 m.
     pub gap: Gap,
+    /// Direction of the tangent in body axes, for a clamp. Default: that of the cable where it is attached, of a slack cable as it was laid
+    /// that of the drawing.
+    pub direction: Option<Vector3<f64>>,
 }
 
 impl From<AttachmentKind> for AttachmentOptions {

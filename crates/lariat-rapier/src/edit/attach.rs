@@ -22,7 +22,7 @@ pub(crate) fn attach(
     world: &PhysicsWorld,
     (cable, at): (CableHandle, At),
     (body, anchor): (RigidBodyHandle, Vector3<f64>),
-    AttachmentOptions { kind, gap }: AttachmentOptions,
+    AttachmentOptions { kind, gap, direction: along }: AttachmentOptions,
 ) -> Result<AttachmentHandle, Error> {
     let rigid = check(contents, world, (cable, at), (body, anchor), gap)?;
     let node = free_node(contents, cable, at)?;
@@ -34,9 +34,10 @@ pub(crate) fn attach(
             None
         }
         AttachmentKind::Clamp => {
-            attached.attach_clamped(At::Node(node))?;
+            let turn = rotation(*rigid.rotation());
+            attached.attach_clamped(At::Node(node), along.map(|along| turn * along))?;
             let slope = Vector3::from_column_slice(&attached.positions()[6 * node + 3..6 * node + 6]);
-            Some(rotation(*rigid.rotation()).inverse() * slope.normalize())
+            Some(turn.inverse() * slope.normalize())
         }
     };
     let index = contents.attachments.push(Attachment {

@@ -202,7 +202,7 @@ fn set_supports(contents: &mut Contents, nodes: &[AttachedNode]) -> Result<(), E
         let clamped = matches!(support.slope, SlopeSupport::Attached(_));
         if !support.attached || clamped != n.direction.is_some() {
             if n.direction.is_some() {
-                slot.cable.attach_clamped(At::Node(n.node))?;
+                slot.cable.attach_clamped(At::Node(n.node), None)?;
             } else {
                 slot.cable.attach(At::Node(n.node))?;
             }

@@ -2,7 +2,7 @@
 
 use super::common::{add_cube, bits, cable, gap, l_stable_integrator, run, soft, tension, weightless};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Cable, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet, Error, Gap};
 
@@ -238,4 +238,36 @@ fn a_gap_is_refused_or_closed_as_the_user_says() {
     run(&mut PhysicsWorld::new(), &mut set, 30);
     let [a, b] = [a, b].map(|c| set.get(c).unwrap().sample(1.0).unwrap().position);
     assert!((a - b).norm() < 1e-6);
+}
+
+/// A slack cable that is clamped to a turned body along an axis of the body starts at rest, and the clamp holds that angle exactly.
+///
+/// Reference: the contract; the equilibrium of the cable by itself, with a clamp in the same direction.
+#[test]
+fn a_clamp_on_a_body_holds_the_direction_that_is_given() {
+    let mut world = PhysicsWorld::new();
+    let turn = Vector::new(0.0, 0.0, 0.7);
+    let post = world.insert_body(RigidBodyBuilder::fixed().translation(Vector::ZERO).rotation(turn));
+    let build = || {
+        let section = Section::from_stiffness(1e4, 0.5, 0.2).unwrap();
+        let builder = Cable::builder().points([Vector3::zeros(), Vector3::x()]).length(1.3).section(section);
+        builder.elements(16).fix(At::End)
+    };
+    let mut set = CableSet::new();
+    let rope = set.insert(build().build().unwrap());
+    let along = AttachmentKind::Clamp.along(Vector3::x());
+    let clamp = set.attach(&world, rope, At::Start, post, Vector3::zeros(), along).unwrap();
+    assert_eq!(set.attachment(clamp).unwrap().kind(), AttachmentKind::Clamp);
+    // the body has single precision
+    let direction = Vector3::new(0.7f64.cos(), 0.7f64.sin(), 0.0);
+    let slope = |set: &CableSet| set.get(rope).unwrap().sample(0.0).unwrap().slope.normalize();
+    assert!((slope(&set) - direction).norm() < 1e-6, "{:?}", slope(&set));
+    let alone = build().clamp_along(At::Start, direction).build().unwrap();
+    let difference = |set: &CableSet| {
+        let pairs = alone.positions().iter().zip(set.get(rope).unwrap().positions());
+        pairs.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    assert!(difference(&set) < 1e-5, "{:e}", difference(&set));
+    run(&mut world, &mut set, 60);
+    assert!((slope(&set) - direction).norm() < 1e-6 && difference(&set) < 1e-4, "{:e}", difference(&set));
 }

@@ -177,7 +177,7 @@ impl Physics {
             };
             let kind = kind.with_gap(gap);
             let attached = match attachment.anchor {
-                None => self.cables.attach_here(&self.world, cable, at, body, kind.kind),
+                None => self.cables.attach_here(&self.world, cable, at, body, kind),
                 Some(anchor) => self.cables.attach(&self.world, cable, at, body, to_vector(&anchor), kind),
             };
             self.attachments.push(Some(attached.map_err(|error| self.explain(scene, 0.0, error))?));

@@ -56,6 +56,9 @@ table! {
         gap: GapRule = 1e-6, Kind::Either(&[Kind::Choice(ClosingGap::names), Kind::Number(NOT_NEGATIVE)]), "m";
         /// `"ball"` holds the position, `"clamp"` the direction of the tangent, too.
         kind: AttachmentKind = "ball", Kind::Choice(AttachmentKind::names);
+        /// Direction of the tangent at a clamp, towards growing arc length, of any size, in the axes of the body or the world. A slack
+        /// cable, or one that is turned, starts in static equilibrium between its clamps, its free ends held where they are drawn.
+        direction: Option<Vector3<f64>> = ("of the drawn polyline there"), VECTOR;
     }
 }
 
@@ -74,6 +77,8 @@ pub struct AttachmentScene {
     pub anchor: Option<Vector3<f64>>,
     /// True to hold the direction of the tangent, too.
     pub clamp: bool,
+    /// Direction of the tangent of a clamp, in the axes of the body or the world; `None` = that of the drawing.
+    pub direction: Option<Vector3<f64>>,
     /// What to do if the cable point does not start at the anchor.
     pub gap: Gap,
 }
@@ -107,7 +112,19 @@ pub(super) fn read(
         GapRule::Closing(_) => Gap::Close,
     };
     let clamp = row.kind == AttachmentKind::Clamp;
-    Ok(AttachmentScene { name, cable, arc_length, body, anchor: row.anchor, clamp, gap })
+    if let Some(direction) = row.direction {
+        let problem = match clamp {
+            false => Some("a ball holds no direction"),
+            true if direction == Vector3::zeros() => Some("the direction has no length"),
+            true => None,
+        };
+        if let Some(problem) = problem {
+            let accepted = "a vector with kind = \"clamp\"";
+            return Err(doc.error_accepting(&at.key("direction"), Problem::Conflict(problem.to_string()), accepted));
+        }
+    }
+    let (anchor, direction) = (row.anchor, row.direction);
+    Ok(AttachmentScene { name, cable, arc_length, body, anchor, clamp, direction, gap })
 }
 
 /// Compares the anchors with the points of the cables as drawn.

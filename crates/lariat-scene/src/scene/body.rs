@@ -262,6 +262,11 @@ impl BodyScene {
         position + rotation * point
     }
 
+    /// Returns a direction in the axes of the body in those of the world at t = 0.
+    pub fn turned(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        self.pose(0.0).1 * direction
+    }
+
     /// Returns a point of the world at t = 0 in the axes of the body.
     pub fn to_body(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let (position, rotation) = self.pose(0.0);

@@ -26,7 +26,12 @@ impl Scene {
             .integrator(scene.integrator);
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
             let at = At::ArcLength(attachment.arc_length);
-            builder = if attachment.clamp { builder.clamp(at) } else { builder.fix(at) };
+            let turn = |along: Vector3<f64>| attachment.body.map_or(along, |body| self.bodies[body].turned(&along));
+            builder = match attachment.direction.map(turn) {
+                Some(direction) => builder.clamp_along(at, direction),
+                None if attachment.clamp => builder.clamp(at),
+                None => builder.fix(at),
+            };
         }
         for &(_, arc_length) in self.tied(index) {
             builder = builder.fix(At::ArcLength(arc_length));

@@ -2,7 +2,7 @@
 
 use super::sheaves;
 use crate::contents::Contents;
-use crate::contents::attachment::{AttachmentKind, AttachmentOptions, Gap};
+use crate::contents::attachment::{AttachmentKind, Gap};
 use crate::contents::reel::sheave::SheaveOptions;
 use crate::edit::attach::{attach, check};
 use crate::edit::part::part;
@@ -38,7 +38,7 @@ pub(crate) fn add(
     };
     let rest = part(contents, cable, cut, &mut Vec::new())?.ok_or(Error::NoCable(cable))?;
     // both ends are where they are beside the anchor
-    let held = AttachmentOptions { kind: AttachmentKind::Ball, gap: Gap::Close };
+    let held = AttachmentKind::Ball.with_gap(Gap::Close);
     for end in [(cable, At::End), (rest, At::Start)] {
         attach(contents, world, end, (body, anchor), held)?;
     }

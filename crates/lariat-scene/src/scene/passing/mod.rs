@@ -226,6 +226,7 @@ fn held(
         body,
         anchor: Some(anchor),
         clamp: false,
+        direction: None,
         gap: Gap::Refuse(GAP),
     })
 }
