@@ -85,7 +85,7 @@ pub use cable::sample::Sample;
 pub use cable::{Cable, ReelReading, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
-    Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
+    AxialLaw, Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
     ForceDerivatives, GravityScale, LineLoad, LineLoads, Potential, RestPiece, RestShape, RopeKind,
 };
 pub use element::{axial, bending};

@@ -29,6 +29,8 @@ fn all() -> Effects {
         rest_shape: Some(rest_shape()),
         line_loads: Some(LineLoad { from: 0.2, to: 0.7, force: Vector3::new(0.1, 0.3, -0.2) }.into()),
         gravity_scale: Some(GravityScale(0.8)),
+        // it has no rest stretch beside it: `axial_laws.rs`
+        axial_law: None,
         // with every method, and contact has one
         contact: None,
     }

@@ -21,6 +21,8 @@ fn all() -> Effects {
         rest_shape: Some(RestShape { pieces: vec![RestPiece { from: 1.0, stretch: 0.999, curvature: 0.05 }] }),
         line_loads: Some(LineLoad { from: 0.3, to: 1.1, force: Vector3::new(0.0, -0.5, 0.2) }.into()),
         gravity_scale: Some(GravityScale(0.9)),
+        // it has no rest stretch beside it: `axial_laws.rs`
+        axial_law: None,
         // with every method, and contact has one
         contact: None,
     }

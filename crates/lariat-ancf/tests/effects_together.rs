@@ -29,6 +29,8 @@ fn all() -> Effects {
         rest_shape: Some(RestShape { pieces: vec![piece(0.0, 0.97, 0.8), piece(0.4, 1.02, 1.5)] }),
         line_loads: Some(LineLoad { from: 0.2, to: 0.7, force: Vector3::new(0.1, 0.3, -0.2) }.into()),
         gravity_scale: Some(GravityScale(0.8)),
+        // it has no rest stretch beside it: `axial_laws.rs`
+        axial_law: None,
         // with every method, and contact has one
         contact: None,
     }
@@ -45,7 +47,7 @@ fn allowed(name: &str, mut effects: Effects) -> Effects {
 
 /// Every effect alone, none, and all.
 fn each() -> Vec<(&'static str, Effects)> {
-    let Effects { damping, drag, buoyancy, rest_shape, line_loads, gravity_scale, contact: _ } = all();
+    let Effects { damping, drag, buoyancy, rest_shape, line_loads, gravity_scale, axial_law: _, contact: _ } = all();
     let none = Effects::default;
     vec![
         ("none", none()),

@@ -211,6 +211,23 @@ impl Contact {
     }
 }
 
+impl AxialLaw {
+    /// EA times the engineering strain.
+    pub fn hooke() -> Self {
+        AxialLaw(lariat_ancf::AxialLaw::Hooke)
+    }
+
+    /// EA times the engineering strain in tension, nothing in compression.
+    pub fn rope() -> Self {
+        AxialLaw(lariat_ancf::AxialLaw::Rope)
+    }
+
+    /// A measured curve: rows of strain and force in N, as [`lariat_ancf::AxialLaw::Curve`].
+    pub fn curve(rows: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        AxialLaw(lariat_ancf::AxialLaw::Curve(rows.into_iter().collect()))
+    }
+}
+
 impl GravityScale {
     /// Multiplies gravity by `factor`.
     pub fn new(factor: f64) -> Self {

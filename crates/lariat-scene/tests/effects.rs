@@ -365,3 +365,40 @@ fn restitution_of_a_scene_lets_a_rope_bounce() {
     let error = Scene::parse("effects.toml", &text, &[], Purpose::Run).unwrap_err().to_string();
     assert!(error.contains("restitution") && error.contains("from 0 to 1"), "{error}");
 }
+
+/// A hanging load strains a rope by its axial law, and a point may be written as a share of the length.
+///
+/// *Source.* The law: 1000 N at EA = 1e4 N is a strain of 0.1; a row of the curve.
+#[test]
+fn an_axial_law_of_a_scene_strains_a_rope_by_its_rows() {
+    for law in ["\"hooke\"", "\"rope\"", "{ curve = [[0.0, 0.0], [0.1, 1000.0], [0.2, 1800.0]] }"] {
+        let text = format!(
+            "gravity = [0.0, 0.0, 0.0]\n[[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [0.0, -2.0, 0.0]]\n\
+             axial_stiffness = 1.1e4\nbending_stiffness = 0.1\nmass_per_length = 0.1\naxial_law = {law}\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"0 %\"\nbody = \"world\"\n\
+             [[load]]\ncable = \"rope\"\nat = \"100%\"\nforce = [0.0, -1000.0, 0.0]\n\
+             [[probe]]\nname = \"p\"\ncable = \"rope\"\nat = \"50 %\"\n"
+        );
+        let (_, rows) = results("law", &text, Purpose::Static);
+        let strain = if law.starts_with('{') { 0.1 } else { 1000.0 / 1.1e4 };
+        assert!((rows[0][2] + 1.0 + strain).abs() < 1e-9, "{law}: {:?}", rows[0]);
+        let refused = text.replace("\"50 %\"", "\"150 %\"");
+        assert!(Scene::parse("effects.toml", &refused, &[], Purpose::Static).is_err());
+    }
+}
+
+/// A clamp holds the direction that is given, in the axes of its body.
+#[test]
+fn a_clamp_of_a_scene_has_a_direction() {
+    let text = format!(
+        "{CABLE}length = 2.2\n[[body]]\nname = \"post\"\nkind = \"fixed\"\nshape = \"none\"\nrotation = [0.0, 0.0, 0.5]\n\
+         [[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"post\"\nkind = \"clamp\"\ndirection = [2.0, 0.0, 0.0]\n\
+         [[attachment]]\ncable = \"line\"\nat = \"end\"\nbody = \"world\"\n\
+         [[probe]]\nname = \"p\"\ncable = \"line\"\nat = \"start\"\n"
+    );
+    let (_, rows) = results("direction", &text, Purpose::Run);
+    // t, position, velocity, slope
+    assert!(rows.iter().all(|row| (row[8].atan2(row[7]) - 0.5).abs() < 1e-6), "{:?}", rows[0]);
+    let ball = text.replace("kind = \"clamp\"\n", "");
+    assert!(Scene::parse("effects.toml", &ball, &[], Purpose::Run).is_err());
+}

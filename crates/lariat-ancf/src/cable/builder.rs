@@ -1,7 +1,7 @@
 //! Building a cable.
 
 use super::clamp::{is_turned, unit};
-use super::layout::{Laid, SLACK};
+use super::layout::Laid;
 use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
 use crate::at::At;
@@ -16,7 +16,7 @@ use crate::obstacle::Obstacles;
 use crate::point::Point;
 use crate::reel::Reels;
 use crate::rule::{BendingRule, Rule};
-use crate::scales::cable::MAX_ELEMENTS;
+use crate::scales::cable::{MAX_ELEMENTS, SLACK};
 use crate::section::Element;
 use crate::section::Section;
 use crate::support::{Motion, SlopeSupport, Support};

@@ -37,14 +37,9 @@ use crate::error::{Error, require_finite};
 use crate::model::Drawn;
 use crate::obstacle::Obstacles;
 use crate::reel::Reels;
+use crate::scales::cable::{LARGEST_TURN, SAME_DIRECTION};
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::{Rotation3, Vector3};
-
-/// Largest turn in rad of a clamp between two searches for equilibrium: about as much as statics
-/// turn a slope in one iteration.
-const LARGEST_TURN: f64 = 0.3;
-/// Angle in rad up to which a slope has the direction of its clamp.
-const SAME: f64 = 1e-9;
 
 impl Cable {
     /// Holds the position of a node where it is and the direction of its tangent: that of the
@@ -119,9 +114,9 @@ impl Cable {
     /// constant loads, if one is found: from clamps along these slopes, which are turned to their
     /// directions by and by.
     pub(super) fn bend_to_clamps(&mut self, from: &[(usize, Vector3<f64>)]) -> Result<(), Error> {
-        let Effects { gravity_scale, buoyancy, line_loads, rest_shape, .. } = self.model.effects.clone();
+        let Effects { gravity_scale, buoyancy, line_loads, rest_shape, axial_law, .. } = self.model.effects.clone();
         let mut model = crate::model::Model {
-            effects: Effects { gravity_scale, buoyancy, line_loads, rest_shape, ..Effects::default() },
+            effects: Effects { gravity_scale, buoyancy, line_loads, rest_shape, axial_law, ..Effects::default() },
             loads: Vec::new(),
             load_origins: Vec::new(),
             force_densities: ForceDensities::default(),
@@ -190,7 +185,7 @@ fn turn(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
 
 /// Returns whether a slope does not have a direction.
 pub(super) fn is_turned(slope: &Vector3<f64>, direction: &Vector3<f64>) -> bool {
-    slope.cross(direction).norm() > SAME * slope.norm() || slope.dot(direction) <= 0.0
+    slope.cross(direction).norm() > SAME_DIRECTION * slope.norm() || slope.dot(direction) <= 0.0
 }
 
 /// Returns a direction as a unit vector.

@@ -6,10 +6,8 @@
 //! sagging along gravity, so that a slack cable starts unstrained. Corners between segments are
 //! rounded by [`unstrained`](super::unstrained).
 
+use crate::scales::cable::SLACK;
 use nalgebra::Vector3;
-
-/// Share by which a slack cable is longer than drawn, beyond rounding.
-pub(super) const SLACK: f64 = 1e-9;
 
 /// Where a node of a new cable lies.
 #[derive(Clone, Copy, Debug)]

@@ -8,6 +8,7 @@
 //! | `clamp` | clamps, their directions, and the start shape between them |
 //! | `parts`, `check` | what steps it: its parts lent apart, and whether it can be stepped |
 //! | `state`, `snapshot` | reading and changing the state; snapshots |
+//! | `strut` | the bend of a straight cable under compression |
 //! | `supports`, `loads`, `potentials`, `effects` | what acts on it, changed between steps |
 //! | `contact`, `overlap` | what it can touch, and what it touches |
 //! | `reel` | reels at the ends, which change the length |
@@ -36,6 +37,7 @@ pub mod sample;
 mod saved;
 mod snapshot;
 mod state;
+mod strut;
 mod supports;
 mod unstrained;
 mod workspace;

@@ -221,7 +221,7 @@ impl DiscreteGradientForce for Nothing {
         match *self {}
     }
     #[inline(always)]
-    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: &L, _: &mut T) {
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: T, _: &L, _: &mut T) {
         match *self {}
     }
 }

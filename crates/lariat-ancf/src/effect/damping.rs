@@ -244,7 +244,7 @@ impl DiscreteGradientForce for DampingTable {
     }
 
     #[inline(always)]
-    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: &L, _: &mut T) {}
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: T, _: &L, _: &mut T) {}
 }
 
 impl DampingTable {

@@ -38,6 +38,8 @@ macro_rules! for_each_effect {
             { field: line_loads, type: LineLoads, set: set_line_loads, key: "line_load", summary: "Constant forces per length." }
             { field: rest_shape, type: RestShape, set: set_rest_shape, key: "rest_shape",
               summary: "Stress-free stretch and curvature; without it the cable is straight and unstretched at rest." }
+            { field: axial_law, type: AxialLaw, set: set_axial_law, key: "axial_law",
+              summary: "Axial force against strain: `hooke`, `rope` or a curve; without it the Green law." }
             { field: damping, type: Damping, set: set_damping, key: "damping", summary: "Internal damping (Kelvin-Voigt)." }
             { field: drag, type: Drag, set: set_drag, key: "drag", summary: "Drag of a fluid or wind." }
             { field: contact, type: Contact, set: set_contact, key: "contact",

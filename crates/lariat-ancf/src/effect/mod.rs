@@ -12,6 +12,7 @@
 //! | [`gravity`] | factor on gravity | the weight, once |
 //! | [`buoyancy`] | buoyancy and added mass | the weight and the mass matrix, once |
 //! | [`line_load`] | force per length | a constant vector, once |
+//! | [`axial_law`] | force against strain other than the Green law | Gram numbers of the element |
 //! | [`rest_shape`] | stress-free stretch and curvature | Gram numbers of the element |
 //! | [`damping`] | Kelvin-Voigt damping | Gram numbers of the element |
 //! | [`contact`] | contact and friction with obstacles | material points of the centre line, in steps of the discrete gradient |
@@ -35,6 +36,7 @@
 //! [`explicit`]: crate::integrate::explicit
 
 pub(crate) mod acts;
+pub mod axial_law;
 pub mod buoyancy;
 pub mod contact;
 pub(crate) mod curvature;
@@ -51,6 +53,7 @@ pub mod rope_kind;
 pub(crate) mod tables;
 pub mod work;
 
+pub use axial_law::AxialLaw;
 pub use buoyancy::Buoyancy;
 pub use contact::Contact;
 pub use damping::Damping;

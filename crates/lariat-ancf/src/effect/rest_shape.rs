@@ -273,7 +273,7 @@ impl DiscreteGradientForce for RestTable {
     }
 
     #[inline(always)]
-    fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T) {
+    fn add_rest_strain<T: Real, L: Load<T>>(&self, _: T, from: &L, strain: &mut T) {
         if !self.excess.is_empty() {
             *strain = *strain + from.load(&self.excess);
         }

@@ -98,8 +98,8 @@ macro_rules! generate {
             }
 
             #[inline(always)]
-            fn add_rest_strain<T: Real, L: Load<T>>(&self, from: &L, strain: &mut T) {
-                $(if let Some(table) = &self.$field { table.add_rest_strain(from, strain); })*
+            fn add_rest_strain<T: Real, L: Load<T>>(&self, square: T, from: &L, strain: &mut T) {
+                $(if let Some(table) = &self.$field { table.add_rest_strain(square, from, strain); })*
             }
         }
 

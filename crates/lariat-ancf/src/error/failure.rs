@@ -128,6 +128,10 @@ pub enum Requirement {
     DisplacedArea,
     /// Drag.
     Drag,
+    /// An axial rule that has the whole strain that is linear in the element: projected, exact, mean, or five Gauss points and more.
+    WholeAxialRule,
+    /// A rest stretch of 1: a law has its own strain without force.
+    RestStretch,
     /// A radius, of the contact or by the diameter of the section.
     Radius,
 }
@@ -138,6 +142,8 @@ impl fmt::Display for Requirement {
             Requirement::BendingRule => "a bending rule, and the cable has none",
             Requirement::Diameter => "a diameter: of the section, or of the drag",
             Requirement::DisplacedArea => "a displaced area: of the section, or of the buoyancy",
+            Requirement::WholeAxialRule => "the axial rule `projected`, `exact`, `mean`, or five Gauss points and more",
+            Requirement::RestStretch => "a rest stretch of 1: let the curve begin at another strain",
             Requirement::Radius => "a radius: of the contact, or by the diameter of the section",
             Requirement::Drag => "drag, and the cable has none",
         })

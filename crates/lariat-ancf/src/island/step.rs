@@ -93,13 +93,18 @@ impl Island {
         for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
             cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         }
+        // as they were, if the step fails; hardly ever any
+        let straight: Vec<(usize, Vec<f64>)> =
+            cables.iter_mut().enumerate().filter_map(|(i, cable)| Some((i, cable.bend_strut()?))).collect();
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         reel::begin(&mut self.by_discrete_gradient.unknowns, cables, pins, (&*sheaves, drums));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
         cables.iter_mut().for_each(|cable| cable.end_reel(outcome.is_ok()));
-        if outcome.is_ok() {
+        if outcome.is_err() {
+            straight.into_iter().for_each(|(i, q)| cables[i].snapshot.state.q = q);
+        } else {
             let wheels = &self.by_discrete_gradient.unknowns.wheels;
             sheaves.iter_mut().zip(wheels).for_each(|(sheave, wheel)| *sheave = wheel.sheave);
         }

@@ -8,8 +8,8 @@ use crate::effect::acts::Acts;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::potential::Potentials;
 use crate::effect::tables::ElementTables;
-use crate::effect::{Damping, Effects, LineLoads, Target};
-use crate::error::{Error, require, require_finite};
+use crate::effect::{Damping, Effects, LineLoads, RestShape, Target};
+use crate::error::{Error, Requirement, require, require_finite};
 use crate::load::PointLoad;
 use crate::obstacle::Obstacles;
 use crate::reel::Reels;
@@ -215,6 +215,11 @@ impl Model {
     /// Rejects effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
         self.effects.check(&self.target())?;
+        let stretched = |rest: &RestShape| rest.pieces.iter().any(|piece| piece.stretch != 1.0);
+        if self.effects.axial_law.is_some() && self.effects.rest_shape.as_ref().is_some_and(stretched) {
+            let (cable, effect) = (self.name.clone(), "an axial law");
+            return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::RestStretch });
+        }
         if self.reels.is_empty() { Ok(()) } else { self.check_with_reel() }
     }
 

@@ -42,3 +42,26 @@ pub(crate) const DAMPING: [f64; 2] = [1.0, 1e12];
 /// Factor of the damping after a step; its inverse cubed after one that failed. Unknown: as trust
 /// regions have it.
 pub(crate) const EASE: f64 = 0.5;
+
+/// Share by which a slack cable is longer than drawn. Derived: beyond rounding.
+pub(crate) const SLACK: f64 = 1e-9;
+
+/// Largest turn in rad of a clamp between two searches for equilibrium. Derived: as much as statics
+/// turn a slope in one iteration.
+pub(crate) const LARGEST_TURN: f64 = 0.3;
+
+/// Angle in rad up to which a slope has the direction of its clamp. Derived: beyond rounding.
+pub(crate) const SAME_DIRECTION: f64 = 1e-9;
+
+/// Bend of a straight strut over its length. Derived: the rounding of single precision, in which
+/// hosts have positions.
+pub(crate) const BEND: f64 = f32::EPSILON as f64;
+
+/// Share of that bend below which a cable counts as straight. Derived: it grows from there as well.
+pub(crate) const UNBENT: f64 = 0.1;
+
+/// Half waves of that bend. Unknown: which of them grows fastest depends on the load.
+pub(crate) const WAVES: usize = 8;
+
+/// Strain by which an element of a strut is compressed. Derived: beyond rounding.
+pub(crate) const COMPRESSED: f64 = 1e-9;

@@ -52,6 +52,7 @@ impl Cable {
 
     fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         self.before.copy_from(&self.snapshot.state);
+        self.bend_strut();
         self.refresh_memory();
         self.begin_accounts();
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {

@@ -278,6 +278,21 @@ pub enum Warning {
         /// Speed of longitudinal waves in m/s.
         wave_speed_m_s: f64,
     },
+    /// Waves run along it faster than in any material, by its stiffness and mass per length.
+    #[error(
+        "cable {cable:?}: EA = {axial_stiffness_n:.3e} N and {mass_per_length_kg_m:.3e} kg/m make waves of {wave_speed_m_s:.1e} m/s along it, as no material has (steel 5200, \
+         HMPE 10000): EA is Young's modulus times the area, in N; was the modulus given?"
+    )]
+    FastWaves {
+        /// Name of the cable.
+        cable: String,
+        /// EA in N.
+        axial_stiffness_n: f64,
+        /// Mass per length in kg/m.
+        mass_per_length_kg_m: f64,
+        /// Speed of longitudinal waves in m/s.
+        wave_speed_m_s: f64,
+    },
     /// Softer than any rope, or than any of its density.
     #[error(
         "cable {cable:?}: Young's modulus is {youngs_modulus_pa} Pa, softer than any rope or rubber: it is in Pa (steel 2.1e11, rubber \

@@ -32,11 +32,16 @@ pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<
     shape.into_iter().chain(material).chain(light)
 }
 
-/// Returns the warning about a material that is lighter than any.
+/// Returns the warning about a material that is lighter than any, or waves that are faster.
 fn light(cable: &str, section: &Section) -> Option<Warning> {
-    let area = section.axial_stiffness / section.youngs_modulus?;
-    let density_kg_m3 = section.mass_per_length / area;
-    let wave_speed_m_s = (section.axial_stiffness / section.mass_per_length).sqrt();
+    let (axial_stiffness_n, mass_per_length_kg_m) = (section.axial_stiffness, section.mass_per_length);
+    let wave_speed_m_s = (axial_stiffness_n / mass_per_length_kg_m).sqrt();
+    let Some(modulus) = section.youngs_modulus else {
+        let cable = cable.to_string();
+        let waves = Warning::FastWaves { cable, axial_stiffness_n, mass_per_length_kg_m, wave_speed_m_s };
+        return (wave_speed_m_s > FASTEST).then_some(waves);
+    };
+    let density_kg_m3 = mass_per_length_kg_m * modulus / axial_stiffness_n;
     let light = density_kg_m3 < LIGHTEST || wave_speed_m_s > FASTEST;
     light.then(|| Warning::LightMaterial { cable: cable.to_string(), density_kg_m3, wave_speed_m_s })
 }

@@ -27,7 +27,7 @@ from lariat._lariat import (
 )
 from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat.contact import Obstacle
-from lariat.effects import Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
+from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
 from lariat.errors import Error
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
 from lariat.reel import Reel
@@ -35,6 +35,7 @@ from lariat.scenes import Probe, Run, import_mjcf, run, statics
 from lariat.sweeps import Sweep, sweep
 
 __all__ = [
+    "AxialLaw",
     "Buoyancy",
     "Cable",
     "CoSimulation",

@@ -130,13 +130,25 @@ class RestShape:
     key: ClassVar[str] = "rest_shape"
 
 
-Effect = Union[GravityScale, Buoyancy, Damping, Drag, LineLoad, RestShape]
+@dataclass(frozen=True)
+class AxialLaw:
+    """Axial force against engineering strain, instead of the Green law."""
+
+    law: str | Sequence[Sequence[float]]
+    """"hooke": EA times the strain; "rope": the same, without force in compression; or a measured curve, rows of strain and force in N, both
+    ascending from a force of 0, which cannot push."""
+    key: ClassVar[str] = "axial_law"
+
+
+Effect = Union[GravityScale, Buoyancy, AxialLaw, Damping, Drag, LineLoad, RestShape]
 Effects = Union[Effect, Iterable[Effect], Mapping[str, Any], None]
 
 
 def _plain(effect: Any) -> Any:
     if isinstance(effect, GravityScale):
         return effect.factor
+    if isinstance(effect, AxialLaw):
+        return effect.law if isinstance(effect.law, str) else {"curve": [list(row) for row in effect.law]}
     if isinstance(effect, RestShape):
         return [_plain(piece) for piece in effect.pieces]
     values = {f.name: getattr(effect, f.name) for f in fields(effect)}
@@ -187,6 +199,8 @@ def build(plain: Mapping[str, Any]) -> dict[str, Any]:
             continue
         if key == "gravity_scale":
             made[key] = GravityScale(value)
+        elif key == "axial_law":
+            made[key] = AxialLaw(value if isinstance(value, str) else value["curve"])
         elif key == "damping":
             made[key] = Damping(**value)
         elif key == "contact":

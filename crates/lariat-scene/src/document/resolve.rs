@@ -114,10 +114,17 @@ impl Document<'_> {
                 };
                 items.iter().enumerate().map(one).collect::<Result<_, _>>().map(Value::Array)
             }
-            (Kind::Either(kinds), _) => match kinds.iter().find(|kind| kind.form() == form(value)) {
-                Some(kind) => self.value(kind, value, path),
-                None => Err(self.wrong_type(path, value)),
-            },
+            (Kind::Either(kinds), _) => {
+                // the first of this form says what is wrong
+                let mut refused = None;
+                for kind in kinds.iter().filter(|kind| kind.form() == form(value)) {
+                    match self.value(kind, value, path) {
+                        Ok(value) => return Ok(value),
+                        Err(error) => refused = refused.or(Some(error)),
+                    }
+                }
+                Err(refused.unwrap_or_else(|| self.wrong_type(path, value)))
+            }
             _ => Err(self.wrong_type(path, value)),
         }
     }

@@ -6,11 +6,11 @@
 use super::flow::{self, FLOW};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, table};
+use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, choice, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
-    BendingRule, Buoyancy, Contact, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece, RestShape,
-    RopeKind, Rule, Section, for_each_effect,
+    AxialLaw, BendingRule, Buoyancy, Contact, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece,
+    RestShape, RopeKind, Rule, Section, for_each_effect,
 };
 use toml::Value;
 
@@ -340,6 +340,34 @@ impl SceneEffect for Contact {
             Some(_) => Ok(()),
             None => Err(doc.missing(&at.key("radius"))),
         }
+    }
+}
+
+choice! {
+    /// Axial laws by name.
+    enum LawName {
+        /// EA times the engineering strain.
+        Hooke = "hooke",
+        /// The same, without force in compression.
+        Rope = "rope",
+    }
+}
+
+table! {
+    /// A measured axial force against engineering strain. It cannot push: below the first row the force is zero, beyond the last it
+    /// goes on straight; between the rows it is smooth and does not fall. `axial_stiffness` is its steepest slope or more.
+    keys CURVE("[cable.axial_law]") {
+        /// Strains and forces, both ascending; the first force is 0.
+        curve = required, Kind::Rows(&["strain", "force"], 2), "N";
+    }
+}
+
+impl SceneEffect for AxialLaw {
+    const KIND: Kind = Kind::Either(&[Kind::Choice(LawName::names), Kind::Table(&CURVE)]);
+    const WITHOUT: &'static str = "the Green law of the paper";
+
+    fn check(&self, _: &Document<'_>, _: &KeyPath, _: &Context<'_>) -> Result<(), Error> {
+        Ok(())
     }
 }
 

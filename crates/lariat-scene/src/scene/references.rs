@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::choice;
+use crate::schema::{choice, share};
 use serde::Deserialize;
 
 choice! {
@@ -24,6 +24,20 @@ pub enum Position {
     ArcLength(f64),
     /// One of its ends.
     End(CableEnd),
+    /// A share of its length.
+    Share(Share),
+}
+
+/// A share of a length, written in percent.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(try_from = "String")]
+pub struct Share(f64);
+
+impl TryFrom<String> for Share {
+    type Error = String;
+    fn try_from(text: String) -> Result<Self, String> {
+        share(&text).map(Share)
+    }
 }
 
 /// Returns the arc length (m) of a point of a cable of this length (m).
@@ -32,6 +46,7 @@ pub(super) fn arc_length(doc: &Document<'_>, at: &KeyPath, point: Position, leng
         Position::ArcLength(s) => s,
         Position::End(CableEnd::Start) => 0.0,
         Position::End(CableEnd::End) => length,
+        Position::Share(Share(share)) => share * length,
     };
     if (0.0..=length).contains(&s) {
         return Ok(s);

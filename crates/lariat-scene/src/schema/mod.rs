@@ -111,7 +111,23 @@ pub const MANY: u64 = u32::MAX as u64;
 pub const VECTOR: Kind = Kind::Numbers(&["x", "y", "z"], ANY);
 
 /// A point of a cable.
-pub const POSITION: Kind = Kind::Either(&[Kind::Choice(|| vec!["start", "end"]), Kind::Number(ANY)]);
+pub const POSITION: Kind = Kind::Either(&[
+    Kind::Choice(|| vec!["start", "end"]),
+    Kind::Number(ANY),
+    Kind::Parsed { accepted: "a share of the length, as \"50 %\"", parse: |text| share(text).map(|_| ()) },
+]);
+
+/// Reads a share that is written in percent, as `"50 %"`.
+///
+/// # Errors
+/// In words, for another text, or a share that is not from 0 to 100 %.
+pub fn share(text: &str) -> Result<f64, String> {
+    let percent = text.strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
+    match percent {
+        Some(percent) if (0.0..=100.0).contains(&percent) => Ok(percent / 100.0),
+        _ => Err(format!("{text:?} is no share from \"0 %\" to \"100 %\"")),
+    }
+}
 
 /// A parser for [`Kind::Parsed`].
 pub fn parse_as<T: std::str::FromStr<Err: ToString>>(text: &str) -> Result<(), String> {

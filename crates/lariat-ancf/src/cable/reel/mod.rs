@@ -282,6 +282,7 @@ impl Model {
                 self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),
             ),
             ("a rest shape that is curved or in pieces", self.effects.rest_shape.as_ref().is_some_and(curved)),
+            ("an axial law", self.effects.axial_law.is_some()),
             ("forces per length of your own", !self.force_densities.is_empty()),
         ];
         match refused.iter().find(|(_, is_there)| *is_there) {

@@ -274,11 +274,12 @@ impl Elements {
             let change = gram_rates(&mean, &s.change);
             combined(&combined(&s.start, &change, BETA), &s.gram_before, -ALPHA)
         };
+        let square = form(&self.table.a, &g);
         let mut rest = stiffness.axial.splat(1.0);
         if let Some(effects) = effects {
-            effects.add_rest_strain(&group, &mut rest);
+            effects.add_rest_strain(square, &group, &mut rest);
         }
-        (form(&self.table.a, &g) - rest).at_least(0.0) * stiffness.axial
+        (square - rest).at_least(0.0) * stiffness.axial
     }
 }
 

@@ -40,6 +40,7 @@ pub fn all_effects(weight_per_length: f64) -> Effects {
         rest_shape: Some(RestShape::curved(0.05)),
         line_loads: Some(LineLoad::uniform(Vector3::new(0.0, 0.0, 0.05 * weight_per_length)).into()),
         gravity_scale: Some(GravityScale(0.9)),
+        axial_law: None,
         contact: None,
     }
 }

@@ -1,0 +1,89 @@
+//! A straight cable under compression does not stand: it is given the bend that rounding would.
+//!
+//! # Equation
+//!
+//! A straight line is in equilibrium under any compression, in exact arithmetic for ever. Beyond the
+//! Euler load it is unstable, and what grows from is whatever bends it. A cable that is straight to
+//! less than that, and of which an element is compressed by more than a free span of its whole length
+//! with one free end could bear,
+//!
+//! ```text
+//! N > pi^2 EI/(2 L)^2        r_i += a sum_(k = 1..8) sin(k pi s_i/L)/8 n        a = 2^-23 L
+//! ```
+//!
+//! is bent by `a`, which is the rounding of positions in single precision, in which hosts have them. The
+//! slopes are bent with it. What is held stays. n is normal to the cable: along x or y, the one that is
+//! less along the cable.
+//!
+//! # Validity
+//!
+//! Below the load of its own supports a bent cable straightens again, so the bend does nothing. It
+//! changes the energy by less than `2e-12 N L`. It is looked for when a step begins; a cable that is bent
+//! or pulled is left after its first elements.
+//!
+//! # References
+//!
+//! Euler 1744; Timoshenko & Gere 1961, section 2.1.
+//!
+//! # Alternatives considered
+//!
+//! A law that cannot push ([`AxialLaw::Rope`](crate::AxialLaw::Rope)): it is there, for cables that the
+//! user calls ropes; rods push. A larger bend: it would make or take energy that is seen.
+
+use super::Cable;
+use crate::scales::cable::{BEND, COMPRESSED, UNBENT, WAVES};
+use crate::support::SlopeSupport;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+impl Cable {
+    /// Bends a straight cable that is compressed beyond what it can bear, and returns its coordinates before;
+    /// `None` for one that is left.
+    pub(crate) fn bend_strut(&mut self) -> Option<Vec<f64>> {
+        let along = self.is_loaded_strut()?;
+        let before = self.positions().to_vec();
+        let axis = if along.x.abs() <= along.y.abs() { Vector3::x() } else { Vector3::y() };
+        let normal = (axis - along * along.dot(&axis)).normalize();
+        let length = self.length();
+        let size = BEND * length / WAVES as f64;
+        let mut from = 0.0;
+        for node in 0..self.nodes() {
+            let support = self.model.support(node).copied().unwrap_or_default();
+            let waves = (1..=WAVES).map(|k| k as f64 * PI / length);
+            let (bend, slope) =
+                waves.fold((0.0, 0.0), |(bend, slope), k| (bend + (k * from).sin(), slope + k * (k * from).cos()));
+            let q = &mut self.snapshot.state.q[6 * node..6 * node + 6];
+            if !support.holds_position() {
+                (0..3).for_each(|i| q[i] += size * bend * normal[i]);
+            }
+            if support.slope == SlopeSupport::Free {
+                (0..3).for_each(|i| q[3 + i] += size * slope * normal[i]);
+            }
+            from += self.model.elements.get(node).map_or(0.0, |element| element.length);
+        }
+        Some(before)
+    }
+
+    /// Returns the direction of a cable that is straight, and somewhere compressed beyond its Euler load.
+    fn is_loaded_strut(&self) -> Option<Vector3<f64>> {
+        let part = |at: usize| Vector3::from_column_slice(&self.positions()[at..at + 3]);
+        let first = part(0);
+        let along = (part(6) - first).try_normalize(0.0)?;
+        let length = self.length();
+        let off = |x: Vector3<f64>| x - along * along.dot(&x);
+        let (least, mut compressed) = (UNBENT * BEND, false);
+        let mut before = first;
+        for (e, element) in self.model.elements.iter().enumerate() {
+            let (position, slope) = (part(6 * e + 6), part(6 * e + 9));
+            if off(position - first).amax() > least * length || off(slope).amax() > least {
+                return None;
+            }
+            let strain = (position - before).norm() / element.length - 1.0;
+            let section = &element.section;
+            let bears = (PI / (2.0 * length)).powi(2) * section.bending_stiffness;
+            compressed |= -strain > COMPRESSED && -strain * section.axial_stiffness > bears;
+            before = position;
+        }
+        (compressed && off(part(3)).amax() <= least).then_some(along)
+    }
+}

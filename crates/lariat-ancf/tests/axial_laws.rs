@@ -1,0 +1,205 @@
+//! Axial laws: Hooke's, that of a rope which cannot push, and measured curves.
+
+mod common;
+
+use common::rule;
+use lariat_ancf::coupling::{Coupling, Linearisation};
+use lariat_ancf::{
+    At, AxialLaw, Cable, CableBuilder, Damping, Effects, Error, Fidelity, Integrator, Method, PointLoad, Section,
+    StepControl, Vector3,
+};
+
+fn with(law: AxialLaw) -> Effects {
+    Effects { axial_law: Some(law), ..Effects::default() }
+}
+
+fn nylon() -> AxialLaw {
+    AxialLaw::Curve(vec![[0.0, 0.0], [0.05, 400.0], [0.1, 1200.0], [0.2, 5000.0], [0.3, 11000.0]])
+}
+
+fn laws() -> Vec<AxialLaw> {
+    vec![AxialLaw::Hooke, AxialLaw::Rope, nylon()]
+}
+
+/// A hanging rope of 2 m in 4 elements.
+fn hanging(law: Option<AxialLaw>, axial: f64) -> CableBuilder {
+    let effects = law.map_or_else(Effects::default, with);
+    let points = [Vector3::zeros(), Vector3::new(0.0, -2.0, 0.0)];
+    let section = Section::from_stiffness(axial, 0.1, 0.07).unwrap();
+    Cable::builder().points(points).section(section).elements(4).effects(effects).fix(At::Start)
+}
+
+/// A load hangs at the strain that the law gives, by the reading and by the reaction.
+///
+/// *Source.* The law itself: N = EA e; a row of the table.
+#[test]
+fn a_hanging_load_strains_the_rope_by_the_law() {
+    for (law, force, strain) in [
+        (AxialLaw::Hooke, 5000.0, 0.05),
+        (AxialLaw::Rope, 5000.0, 0.05),
+        (nylon(), 1200.0, 0.1),
+        (nylon(), 5000.0, 0.2),
+    ] {
+        for name in ["projected-3", "G5-3", "L2T2"] {
+            let builder = hanging(Some(law.clone()), 1e5).rule(rule(name)).gravity(Vector3::zeros());
+            let mut rope = builder.load(PointLoad::force(2.0, Vector3::new(0.0, -force, 0.0))).build().unwrap();
+            rope.equilibrium().unwrap();
+            let stretch = -common::tip(&rope).y / 2.0 - 1.0;
+            assert!((stretch - strain).abs() < 1e-9, "{law:?} {name}: {stretch}");
+            assert!((rope.sample(1.1).unwrap().tension / force - 1.0).abs() < 1e-8);
+            assert!((rope.reactions().unwrap()[0].force.y / force - 1.0).abs() < 1e-8);
+        }
+    }
+}
+
+/// Heave of 50 t on 200 m of rope at 1 % strain: amplitude of the forced response and the own frequency are the linear ones.
+///
+/// *Source.* A linear spring EA/L without mass, the mass hanging on it: omega^2 = EA/(L m).
+#[test]
+fn heave_on_a_strained_rope_has_the_linear_frequency() {
+    let (mass, length) = (50e3, 200.0);
+    let axial = mass * 9.81 / 0.01;
+    let omega = f64::sqrt(axial / (length * mass));
+    let frequency = |law: Option<AxialLaw>| {
+        // the load is a heavy last element; the rope has hardly any mass
+        let light = Section::from_stiffness(axial, 0.0, 1e-3).unwrap();
+        let effects = law.map_or_else(Effects::default, with);
+        let builder =
+            Cable::builder().points([Vector3::zeros(), Vector3::new(0.0, -length, 0.0)]).section(light).elements(4);
+        let builder = builder
+            .rule(rule("G5-none"))
+            .allow_rank_deficient()
+            .effects(effects)
+            .fix(At::Start)
+            .gravity(Vector3::zeros());
+        let mut rope = builder.load(PointLoad::force(length, Vector3::new(0.0, -mass * 9.81, 0.0))).build().unwrap();
+        rope.equilibrium().unwrap();
+        // stiffness at the working point, by a little more load
+        let before = common::tip(&rope).y;
+        let more = 1e-4 * mass * 9.81;
+        rope.add_load(PointLoad::force(length, Vector3::new(0.0, -more, 0.0))).unwrap();
+        rope.equilibrium().unwrap();
+        (more / (before - common::tip(&rope).y) / mass).sqrt()
+    };
+    let [green, hooke] = [frequency(None), frequency(Some(AxialLaw::Hooke))];
+    println!("omega {omega:.6} rad/s, Hooke {:+.2e}, Green {:+.2e}", hooke / omega - 1.0, green / omega - 1.0);
+    assert!((hooke / omega - 1.0).abs() < 1e-5);
+    assert!((green / omega - 1.0).abs() > 5e-3, "the Green law is another");
+}
+
+/// The force of a strained, bent cable is minus the gradient of its energy, and its matrix the derivative of the force.
+///
+/// *Source.* Central differences.
+#[test]
+fn force_and_tangent_are_derivatives_with_every_law() {
+    for law in laws() {
+        let mut cable = hanging(Some(law.clone()), 1e5).build().unwrap();
+        let mut q = cable.positions().to_vec();
+        q.iter_mut().enumerate().for_each(|(i, x)| *x = *x * 1.03 + 0.02 * (1.7 * i as f64).sin());
+        let n = q.len();
+        let zero = vec![0.0; n];
+        let mut at = |i: usize, step: f64| {
+            let mut moved = q.clone();
+            moved[i] += step;
+            cable.set_coordinates(&moved, &zero).unwrap();
+            (
+                cable.energy().total(),
+                cable.force(),
+                common::dense(&cable.stiffness_matrix()),
+                cable.jacobians().stiffness,
+            )
+        };
+        let (_, force, matrix, exact) = at(0, 0.0);
+        let scale = matrix.amax();
+        assert!((&matrix - &exact).iter().all(|x| x.abs() < 1e-12 * scale), "{law:?}: {:e}", (&matrix - &exact).amax());
+        let d = 1e-5;
+        for i in 0..n {
+            let [(up, force_up, ..), (down, force_down, ..)] = [at(i, d), at(i, -d)];
+            assert!((force[i] + (up - down) / (2.0 * d)).abs() < 1e-8 * scale, "{law:?} {i}");
+            for j in 0..n {
+                let slope = -(force_up[j] - force_down[j]) / (2.0 * d);
+                assert!((matrix[(j, i)] - slope).abs() < 1e-6 * scale, "{law:?} {i} {j}: {} {slope}", matrix[(j, i)]);
+            }
+        }
+    }
+}
+
+/// The energy law of a step of the discrete gradient closes for ropes that are thrown, snap taut and go slack, with every law.
+#[test]
+fn the_energy_law_closes_with_every_law() {
+    for (k, law) in laws().into_iter().enumerate() {
+        for h in [1.0 / 60.0, 1.0 / 240.0, 1.0 / 1000.0] {
+            let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };
+            let velocity = Vector3::new(3.0, 4.0 + k as f64, 1.0);
+            let builder = hanging(Some(law.clone()), 1e5).integrator(integrator).velocity(velocity);
+            let mut rope = builder.load(PointLoad::force(2.0, Vector3::new(0.0, -30.0, 0.0))).build().unwrap();
+            let total = |rope: &Cable| rope.energy().total() + rope.energy_in_store();
+            let first = total(&rope) + rope.effect_work().dissipated().abs();
+            let mut size = first.abs().max(10.0);
+            let mut before = total(&rope);
+            for _ in 0..(1.0 / h) as usize {
+                let load = common::tip(&rope).y;
+                rope.step(h).unwrap();
+                let work = -30.0 * (common::tip(&rope).y - load);
+                let now = total(&rope);
+                // energy is lost alone
+                assert!(now - before - work < 1e-9 * size, "{law:?} h {h}: {:e} J of {size}", now - before - work);
+                size = size.max(now.abs());
+                before = now;
+            }
+        }
+    }
+}
+
+/// A straight rope that is shorter than its length pushes by Hooke's law, and not at all by the others.
+///
+/// *Source.* The laws: N = -0.1 EA, and 0.
+#[test]
+fn a_rope_does_not_push() {
+    for law in laws() {
+        let mut rope = hanging(Some(law.clone()), 1e5).gravity(Vector3::zeros()).build().unwrap();
+        let q: Vec<f64> = rope.positions().iter().map(|x| 0.9 * x).collect();
+        rope.set_coordinates(&q, &vec![0.0; q.len()]).unwrap();
+        let tip = rope.force()[6 * 4 + 1];
+        let expected = if law.cannot_push() { 0.0 } else { -1e4 };
+        assert!((tip - expected).abs() < 1e-8, "{law:?}: {tip}");
+        assert!((rope.sample(0.7).unwrap().tension - expected).abs() < 1e-8);
+    }
+}
+
+/// What makes no law is refused by name.
+#[test]
+fn a_bad_curve_is_refused() {
+    let refused = |law: AxialLaw, name: &str| hanging(Some(law), 1e5).rule(rule(name)).build();
+    for rows in [
+        vec![[0.0, 0.0]],
+        vec![[0.0, 1.0], [0.1, 2.0]],
+        vec![[0.0, 0.0], [0.1, 2.0], [0.2, 1.0]],
+        vec![[0.0, 0.0], [0.1, 2.0], [0.1, 3.0]],
+        vec![[0.0, 0.0], [0.1, f64::NAN]],
+        // steeper than EA
+        vec![[0.0, 0.0], [0.1, 2e4]],
+    ] {
+        let error = refused(AxialLaw::Curve(rows.clone()), "projected-3");
+        assert!(matches!(error, Err(Error::InvalidValue { .. })), "{rows:?} {error:?}");
+    }
+    assert!(matches!(refused(AxialLaw::Hooke, "G3-3"), Err(Error::MissingForEffect { .. })));
+}
+
+/// With damping, too, nothing is made.
+#[test]
+fn damping_beside_a_law_dissipates() {
+    for law in laws() {
+        let effects = Effects { damping: Some(Damping { axial: 1e-3, bending: 1e-3 }), ..with(law.clone()) };
+        let mut rope =
+            hanging(None, 1e5).effects(effects).integrator(Fidelity::Game).velocity([1.0, 5.0, 0.0]).build().unwrap();
+        let total = |rope: &Cable| rope.energy().total() + rope.energy_in_store();
+        let mut before = total(&rope);
+        for _ in 0..60 {
+            rope.step(1.0 / 60.0).unwrap();
+            let now = total(&rope);
+            assert!(now < before + 1e-9, "{law:?}");
+            before = now;
+        }
+    }
+}
