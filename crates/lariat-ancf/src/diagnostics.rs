@@ -39,6 +39,10 @@ pub struct Diagnostics {
     /// zero for a cable without limits.
     #[serde(default)]
     pub load_readings: u64,
+    /// Tests of whether pieces of a cable are near each other, other cables, obstacles and their edges and corners; those with cables are counted by the first one
+    /// of an island. Zero for a cable without contact.
+    #[serde(default)]
+    pub search_tests: u64,
     /// Steps of the discrete gradient whose velocities were scaled down to keep its energy law.
     #[serde(default)]
     pub rescaled_steps: u64,
@@ -74,7 +78,7 @@ macro_rules! by_field {
     ($a:expr, $b:expr, $op:expr, $rest:expr) => {
         by_field!(@ $a, $b, $op, $rest; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations, load_readings, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
+            load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $rest:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* ..$rest }

@@ -2,7 +2,7 @@
 //!
 //! # Validity
 //!
-//! An element is looked at if the ball about the Bezier polygon of its curve, grown by 1.5 times its way relative to the obstacle, comes near. What a
+//! An element is looked at if the ball about its Bezier polygon, of a long one a part of its curve ([`tube`](super::tube)), grown by 1.5 times its way relative to the obstacle, comes near, and so is a feature. What a
 //! point cannot reach in the way that it moves (distances grow no faster than the way) is not looked at again; the rest is traced along its
 //! way to the surface, at every iterate.
 
@@ -12,10 +12,11 @@ use super::pair::{PLACES, Pair, bounding_ball, is_thin, samples};
 use super::path::ObstacleStep;
 use super::point::ContactPoint;
 use super::step::{ContactStep, find, find_from};
+use super::tube::Tube;
 use crate::obstacle::Patch;
+use crate::obstacle::trace;
 use crate::obstacle::{Feature, Nearest};
-use crate::obstacle::{comes_near, trace};
-use crate::scales::contact::{APART, NEAR, OFFSET_TIME, PAID, SWEEP};
+use crate::scales::contact::{APART, LONG, NEAR, OFFSET_TIME, PAID, SWEEP};
 use crate::state::ContactMemory;
 use nalgebra::Vector3;
 
@@ -52,16 +53,27 @@ impl ContactStep {
             for (number, obstacle) in obstacles.iter().enumerate() {
                 let step = self.obstacles[number];
                 let way = SWEEP * (way + step.way(&centre, size));
-                let near = size + radius * (1.0 + APART) + obstacle.skin + way;
+                let margin = radius * (1.0 + APART) + obstacle.skin + way;
+                let near = size + margin;
                 let own = step.start.own(&centre);
-                if !comes_near(&*obstacle.surface, &own, near) {
+                let is_long = size > LONG * margin;
+                let tube = Tube { q: motion.q, element, length: section.length, pose: &step.start, margin };
+                let mut may_meet = |centre: &Vector3<f64>, radius: f64| {
+                    self.tests += 1;
+                    obstacle.surface.may_meet(centre, radius)
+                };
+                if !may_meet(&own, near) || is_long && !tube.any(&mut may_meet) {
                     continue;
                 }
                 let pair = Pair { motion, contact, element, section, from, number, obstacle, step, radius };
                 self.add_samples(&pair);
                 obstacle.surface.features(&own, near, &mut |feature| {
-                    let limit = near + feature.radius;
-                    if !pair.is_wide(feature.radius) && feature.distance_squared(&own) <= limit * limit {
+                    let mut is_near = |centre: &Vector3<f64>, radius: f64| {
+                        let limit = radius + feature.radius;
+                        feature.distance_squared(centre) <= limit * limit
+                    };
+                    self.tests += 1;
+                    if !pair.is_wide(feature.radius) && is_near(&own, near) && (!is_long || tube.any(&mut is_near)) {
                         self.nearby.push(Nearby { element, from, obstacle: number, feature, start: None });
                         self.add_feature(&pair, &feature);
                     }

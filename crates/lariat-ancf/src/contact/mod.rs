@@ -76,6 +76,7 @@ mod slide;
 mod statics;
 mod step;
 mod touch;
+mod tube;
 
 pub use crate::obstacle::{
     Ball, Capsule, Cuboid, Cylinder, Feature, FeatureShape, HalfSpace, LARGEST_RESTITUTION, Mount, Nearest, Obstacle,

@@ -33,6 +33,8 @@ pub(crate) struct ContactStep {
     pub(super) recalled: Vec<bool>,
     /// Where the contact of the next sample is in the memory, if it is that of the sample after the last one found.
     pub(super) next: usize,
+    /// Number of tests of whether elements are near obstacles and their features.
+    pub(super) tests: u64,
     /// Length of the step in s.
     pub(super) h: f64,
     /// Share of every offset that closes in the step.
@@ -94,6 +96,11 @@ impl ContactStep {
     /// Returns the number of contacts that are evaluated.
     pub fn count(&self) -> u64 {
         self.points.len() as u64
+    }
+
+    /// Returns the number of tests of whether elements are near obstacles and their features, since that was last asked.
+    pub fn take_tests(&mut self) -> u64 {
+        core::mem::take(&mut self.tests)
     }
 
     /// Moves the obstacles that bodies of the island carry with these.

@@ -14,4 +14,4 @@ pub(crate) use rigid_motion::Pose;
 pub use rigid_motion::{Mount, RigidMotion};
 pub use shapes::{Ball, Capsule, Cuboid, Cylinder, HalfSpace};
 pub use surface::{Feature, FeatureShape, Nearest, Surface};
-pub(crate) use trace::{comes_near, trace};
+pub(crate) use trace::trace;

@@ -57,6 +57,18 @@ pub trait Surface: Debug + Send + Sync {
 
     /// Returns the corners of a box about the shape; `None` for one without bounds.
     fn bounds(&self) -> Option<[Vector3<f64>; 2]>;
+
+    /// Returns false only if no point of the shape is within a ball of `radius` (m) about `centre`. By its bounds, or without them by its distance;
+    /// a shape of many parts knows better.
+    fn may_meet(&self, centre: &Vector3<f64>, radius: f64) -> bool {
+        match self.bounds() {
+            Some([low, high]) => {
+                let outside = (low - centre).sup(&(centre - high)).sup(&Vector3::zeros());
+                outside.norm_squared() <= radius * radius
+            }
+            None => self.nearest(centre).distance <= radius,
+        }
+    }
 }
 
 impl Feature {

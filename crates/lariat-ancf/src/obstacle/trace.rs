@@ -8,17 +8,6 @@ use super::surface::{Nearest, Surface};
 use crate::scales::obstacle::{PAST, TRACES};
 use nalgebra::Vector3;
 
-/// Returns whether a ball comes near a surface.
-pub(crate) fn comes_near(surface: &dyn Surface, centre: &Vector3<f64>, radius: f64) -> bool {
-    match surface.bounds() {
-        Some([low, high]) => {
-            let outside = (low - centre).sup(&(centre - high)).sup(&Vector3::zeros());
-            outside.norm_squared() <= radius * radius
-        }
-        None => surface.nearest(centre).distance <= radius,
-    }
-}
-
 /// Returns the surface where the way from `start` to `end` comes within `reach` of a part that `counts`; past others it goes on.
 pub(crate) fn trace(
     surface: &dyn Surface,

@@ -164,3 +164,19 @@ pub(crate) const MOST_GROWTH: f64 = 10.0;
 
 /// Smallest growth, below which the search has failed. Unknown: it ends a loop.
 pub(crate) const LEAST_GROWTH: f64 = 1.1;
+
+/// Size of an element in margins of the search from which on its parts are looked at. Measured: by
+/// `contact --test search`; those of a short element cost no less than the whole.
+pub(crate) const LONG: f64 = 4.0;
+
+/// Largest number of halvings of a long element. Unknown: a 64th of it is looked at as a whole.
+pub(crate) const TUBE_HALVINGS: u32 = 6;
+
+/// Number of chords of a part of an element that is not halved. Unknown: comparing 64 chords costs
+/// about what finding 8 balls does.
+pub(crate) const FEW: usize = 8;
+
+/// Least cosine between the tangents of a straight element and its direction, and between that and
+/// one for several elements. Derived: points eight radii apart along such elements are six radii
+/// apart in space, and are near below four.
+pub(crate) const STRAIGHT: f64 = 0.95;

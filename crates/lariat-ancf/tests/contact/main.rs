@@ -13,6 +13,7 @@ mod first_touch;
 mod floor;
 mod pairs;
 mod restitution;
+mod search;
 mod state;
 mod statics;
 mod wall;

@@ -93,6 +93,10 @@ impl Surface for Compound {
     fn bounds(&self) -> Option<[Vector3<f64>; 2]> {
         self.bounds
     }
+
+    fn may_meet(&self, centre: &Vector3<f64>, radius: f64) -> bool {
+        self.parts.iter().any(|part| part.surface.may_meet(&part.to_own(centre), radius))
+    }
 }
 
 /// A shape grown by a radius.
@@ -122,5 +126,9 @@ impl Surface for Rounded {
     fn bounds(&self) -> Option<[Vector3<f64>; 2]> {
         let border = Vector3::repeat(self.border);
         self.inner.bounds().map(|[low, high]| [low - border, high + border])
+    }
+
+    fn may_meet(&self, centre: &Vector3<f64>, radius: f64) -> bool {
+        self.inner.may_meet(centre, radius + self.border)
     }
 }

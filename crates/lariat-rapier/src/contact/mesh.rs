@@ -113,6 +113,12 @@ fn is_within(face: &Nearest, distance: f64) -> bool {
     (face.distance.abs() - distance).abs() <= FLAT * FLAT * distance
 }
 
+/// Returns the box about a ball.
+fn about(centre: &Vector3<f64>, radius: f64) -> Aabb {
+    let (c, r) = (to_vector(centre), to_vector(&Vector3::repeat(radius)));
+    Aabb::new(c - r, c + r)
+}
+
 impl Surface for Mesh {
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let (_, (triangle, location)) = self.tree.project_local_point_and_get_location(to_vector(y), false);
@@ -144,12 +150,14 @@ impl Surface for Mesh {
     }
 
     fn features(&self, centre: &Vector3<f64>, radius: f64, visit: &mut dyn FnMut(Feature)) {
-        let (c, r) = (to_vector(centre), to_vector(&Vector3::repeat(radius)));
-        let near = Aabb::new(c - r, c + r);
-        for triangle in self.tree.bvh().intersect_aabb(&near) {
+        for triangle in self.tree.bvh().intersect_aabb(&about(centre, radius)) {
             let first = self.owned.partition_point(|(owner, _)| *owner < triangle);
             self.owned[first..].iter().take_while(|(owner, _)| *owner == triangle).for_each(|(_, f)| visit(*f));
         }
+    }
+
+    fn may_meet(&self, centre: &Vector3<f64>, radius: f64) -> bool {
+        self.tree.bvh().intersect_aabb(&about(centre, radius)).next().is_some()
     }
 
     fn bounds(&self) -> Option<[Vector3<f64>; 2]> {

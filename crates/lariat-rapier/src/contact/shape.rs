@@ -158,7 +158,7 @@ mod tests {
     }
 
     /// The surface of every shape has the distances that parry computes, with patches that have them too, and whose normal is the way
-    /// from parry's nearest point; no feature is nearer than the surface.
+    /// from parry's nearest point; no feature is nearer than the surface, and a ball that holds a point of it may meet it.
     ///
     /// *Source.* parry's projection of points, to its precision.
     #[test]
@@ -214,6 +214,7 @@ mod tests {
                     };
                     assert!(distance - feature.radius > exact - rounding, "{name} {feature:?}");
                 });
+                assert!(surface.may_meet(&y, exact.abs() + 1e-4), "{name} {y:?}");
                 let [low, high] = surface.bounds().unwrap_or([Vector3::repeat(-9.0), Vector3::repeat(9.0)]);
                 let near = crate::convert::vector(projection.point);
                 assert!((0..3).all(|x| near[x] > low[x] - 1e-5 && near[x] < high[x] + 1e-5), "{name}");

@@ -35,6 +35,9 @@ pub struct Summary {
     /// Steps that were divided.
     #[serde(default)]
     pub divided_steps: u64,
+    /// Tests of whether pieces of cables are near each other, obstacles and their edges.
+    #[serde(default)]
+    pub search_tests: u64,
     /// Newton iterations beyond the first one of a step, by the reason for them; of
     /// `discrete-gradient`.
     #[serde(default)]
@@ -94,6 +97,7 @@ impl Summary {
             factorisations: count(|d| d.factorisations),
             solves: count(|d| d.solves),
             divided_steps: count(|d| d.split_steps),
+            search_tests: count(|d| d.search_tests),
             iterations_for,
             divisions_for,
             element_evaluations: count(|d| d.element_evaluations()),

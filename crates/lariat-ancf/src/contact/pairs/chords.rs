@@ -58,6 +58,17 @@ impl<'a> Piece<'a> {
         [combine(q, self.element, &shape), combine(change, self.element, &shape)]
     }
 
+    /// Returns the place at which the chord before one begins, and its change over the step; `None` at the beginning of the cable.
+    pub fn before(&self, chord: usize) -> Option<[Vector3<f64>; 2]> {
+        if chord > 0 {
+            return Some(self.place((chord - 1) as f64 / self.chords as f64));
+        }
+        (!self.strand.model.begins_contact(self.element)).then(|| {
+            let piece = Piece::new(self.strand, self.element - 1);
+            piece.place((piece.chords - 1) as f64 / piece.chords as f64)
+        })
+    }
+
     /// Returns the place at a share of the step.
     pub fn at(&self, xi: f64, share: f64) -> Vector3<f64> {
         let [x, change] = self.place(xi);

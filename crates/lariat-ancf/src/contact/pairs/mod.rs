@@ -35,13 +35,16 @@
 //!
 //! What was tried, and what it gave: docs/decisions/contact.md.
 
+mod boxes;
 mod chords;
 mod columns;
 mod crossing;
+mod halves;
 mod impact;
 mod point;
 mod search;
 mod step;
+mod strands;
 mod touch;
 
 /// Cables of an island that may touch each other.
@@ -58,6 +61,6 @@ pub(crate) use columns::PairColumns;
 #[cfg(test)]
 pub(crate) use columns::PairEnd;
 pub(in crate::contact) use crossing::crossing;
-pub(crate) use search::Strands;
 pub(crate) use step::PairStep;
+pub(crate) use strands::Strands;
 pub use touch::PairTouch;

@@ -6,7 +6,8 @@ use super::super::point::ContactPoint;
 use super::chords::{Piece, Strand};
 use super::columns::{PairColumns, PairEnd};
 use super::point::{End, PairPoint, frame};
-use super::search::{Candidate, Search, Strands};
+use super::search::{Candidate, Search};
+use super::strands::Strands;
 use crate::element::shape::{self, combine};
 use crate::obstacle::Patch;
 use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, NEAR_PAIR, PAID};
@@ -50,6 +51,11 @@ impl PairStep {
     /// Returns the number of contacts that are evaluated.
     pub fn count(&self) -> u64 {
         self.points.len() as u64
+    }
+
+    /// Returns the number of tests of whether pieces of cables are near each other, since that was last asked.
+    pub fn take_tests(&mut self) -> u64 {
+        core::mem::take(&mut self.search.tests)
     }
 
     /// Begins a step of length `h` (s); contacts close offsets if `close`.

@@ -25,6 +25,8 @@ impl StepTerm<IslandStep<'_, '_>> for Contacts {
         for cable in island.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
             equations.find_contacts(state, buffers, (&island.buffers.paths, !step.divided));
+            let tests = buffers.contact.take_tests();
+            cable.diagnostics_mut().search_tests += tests;
         }
         island.find_pairs(step.h, step.divisible);
     }

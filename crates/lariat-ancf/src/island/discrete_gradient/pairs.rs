@@ -40,7 +40,9 @@ impl IslandStep<'_, '_> {
     /// Calls `f` with the contacts and the cables.
     fn with_pairs<T>(&mut self, f: impl FnOnce(&mut PairStep, &Strands<'_, '_>) -> T) -> T {
         let StepBuffers { pairs, may_touch, .. } = &mut *self.buffers;
-        with_strands(self.cables, self.layout, may_touch.as_deref(), |strands| f(pairs, strands))
+        let found = with_strands(self.cables, self.layout, may_touch.as_deref(), |strands| f(pairs, strands));
+        self.cables[0].diagnostics_mut().search_tests += self.buffers.pairs.take_tests();
+        found
     }
 
     /// Finds the contacts of a step of length `h` (s).
