@@ -31,16 +31,21 @@ pub(super) struct Clamp {
 
 impl Clamp {
     /// Rotates from the `present` direction of the slope to the `wanted` one of the clamp, both
-    /// unit vectors in body axes, within `duration` (s). `rates` are the angular velocities of the
+    /// unit vectors in body axes, within `duration` (s), or by a `share` of the angle. `rates` are the angular velocities of the
     /// body beyond its mean at both ends of the step, in body axes.
-    pub fn new(present: Vector3<f64>, wanted: Vector3<f64>, duration: f64, rates: [Vector3<f64>; 2]) -> Self {
+    pub fn new(
+        present: Vector3<f64>,
+        wanted: Vector3<f64>,
+        (duration, share): (f64, f64),
+        rates: [Vector3<f64>; 2],
+    ) -> Self {
         let (sin, cos) = (present.cross(&wanted).norm(), present.dot(&wanted));
         let angle = sin.atan2(cos);
         if angle < ANGLE_ROUNDING {
             return Clamp { from: wanted, rotation: Vector3::zeros(), rates, duration };
         }
         let axis = UnitVector3::try_new(present.cross(&wanted), 1e-9).unwrap_or_else(|| normal(&present));
-        Clamp { from: present, rotation: axis.into_inner() * angle, rates, duration }
+        Clamp { from: present, rotation: axis.into_inner() * (angle * share), rates, duration }
     }
 
     /// Returns whether the direction is constant.
@@ -80,7 +85,7 @@ mod tests {
     fn direction_rotates_between_its_ends_and_its_derivatives_match_finite_differences() {
         let wanted = Vector3::new(0.6, -0.8, 0.0);
         for present in [Vector3::new(0.0, 0.6, 0.8), -wanted, wanted] {
-            let clamp = Clamp::new(present, wanted, 0.25, Default::default());
+            let clamp = Clamp::new(present, wanted, (0.25, 1.0), Default::default());
             assert_relative_eq!(clamp.at(0.0)[0], present, epsilon = 1e-14);
             assert_relative_eq!(clamp.at(1.0)[0], wanted, epsilon = 1e-14);
             check_derivatives(&clamp);
@@ -90,7 +95,7 @@ mod tests {
     #[test]
     fn direction_on_an_unsteady_body_has_the_rates_given_and_its_derivatives_match_finite_differences() {
         let (d, rates) = (Vector3::new(0.6, -0.8, 0.0), [Vector3::new(1.0, -2.0, 3.0), Vector3::new(0.5, 4.0, -1.0)]);
-        let clamp = Clamp::new(d, d, 0.25, rates);
+        let clamp = Clamp::new(d, d, (0.25, 1.0), rates);
         for (s, w) in [(0.0, rates[0]), (1.0, rates[1])] {
             assert_relative_eq!(clamp.at(s)[0], d, epsilon = 1e-14);
             assert_relative_eq!(clamp.at(s)[1], w.cross(&d), epsilon = 1e-14);

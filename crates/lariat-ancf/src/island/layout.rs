@@ -10,8 +10,18 @@ use super::hold::{Hold, direction, vector};
 use super::pin::PinConstraint;
 use super::rotation::{exponential, spin};
 use crate::cable::Cable;
-use crate::scales::island::{CLOSING_SPEED, GAP_ROUNDING, REVERSED_COSINE};
+use crate::scales::island::{CLOSING_SPEED, GAP_ROUNDING, REVERSED_COSINE, SHORTEST_CLOSING};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
+
+/// Returns the share of a gap (m) that closes in a step of `dt` (s).
+pub fn closing_share(gap: f64, dt: f64) -> f64 {
+    (CLOSING_SPEED * dt / (1.5 * gap).max(GAP_ROUNDING)).min(1.0) * share_of_closing(dt)
+}
+
+/// Returns the share of a small gap, or turn of a clamp, that closes in a step of `dt` (s).
+fn share_of_closing(dt: f64) -> f64 {
+    (dt / SHORTEST_CLOSING).min(1.0).powi(2)
+}
 
 /// The coordinates of one cable.
 #[derive(Clone, Debug, Default)]
@@ -106,7 +116,7 @@ impl Layout {
             let (cable, body) = (&cables[pin.cable], &bodies[pin.body]);
             let gap = cable.node_position(pin.node) - body.point(&pin.anchor);
             let gap = if gap.amax() < GAP_ROUNDING { Vector3::zeros() } else { gap };
-            let share = (CLOSING_SPEED * dt / (1.5 * gap.norm()).max(GAP_ROUNDING)).min(1.0);
+            let share = closing_share(gap.norm(), dt);
             self.closing.push(gap * share);
             self.remaining.push(gap * (1.0 - share));
             self.levers[pin.body] = self.levers[pin.body].max(pin.anchor.norm());
@@ -120,7 +130,12 @@ impl Layout {
                 let slope = body.rotation.inverse() * vector(&cable.positions()[6 * pin.node + 3..]);
                 let present = direction(&slope).unwrap_or(wanted);
                 let present = if present.dot(&wanted) < -REVERSED_COSINE { -present } else { present };
-                Clamp::new(present, wanted, dt, [body.rotation.inverse() * first[1], turned.inverse() * last[1]])
+                Clamp::new(
+                    present,
+                    wanted,
+                    (dt, share_of_closing(dt)),
+                    [body.rotation.inverse() * first[1], turned.inverse() * last[1]],
+                )
             }));
         }
         self.start = cables[0].time();
@@ -133,7 +148,7 @@ impl Layout {
         self.remaining.fill(Vector3::zeros());
         self.rates.fill(Default::default());
         for (clamp, pin) in self.clamps.iter_mut().zip(&self.pins) {
-            *clamp = pin.direction.map(|wanted| Clamp::new(wanted, wanted, self.duration, Default::default()));
+            *clamp = pin.direction.map(|wanted| Clamp::new(wanted, wanted, (self.duration, 1.0), Default::default()));
         }
     }
 

@@ -60,11 +60,11 @@ mod statics;
 mod step;
 mod velocities;
 
-pub use crate::scales::island::CLOSING_SPEED;
 pub(crate) use alone::advance as advance_alone;
 pub use body::{BodyMemory, PointForces, RigidBody};
 pub use coupling::CoupledInertia;
 pub use impedance::Impedance;
+pub use layout::closing_share;
 pub use pin::PinConstraint;
 pub use pin_accounts::PinAccount;
 pub use reel::{Drum, Sheave};

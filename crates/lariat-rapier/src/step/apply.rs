@@ -19,7 +19,7 @@ use crate::body::{SavedBody, replace_loads};
 use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
-use crate::scales::body::MAX_HALF_ROTATION;
+use crate::scales::body::{LEADING_SPEED, MAX_HALF_ROTATION};
 use crate::step::groups;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use ::nalgebra::{Vector3, Vector6};
@@ -58,12 +58,12 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector
     let isolated = proximity::is_isolated(world, handle);
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
     let body = &mut world.bodies[handle];
-    // a body that meets nothing is led back from its rounded place; contacts and motors would feel that as a velocity
-    let (from, attitude) = if isolated {
-        (vector(body.center_of_mass()), rotation(*body.rotation()))
-    } else {
-        (start.position, start.rotation)
-    };
+    // a body that meets nothing is led back from its rounded place; contacts and motors would feel that as a velocity, as would it in a
+    // step that is too short to undo the rounding
+    let rounded = (vector(body.center_of_mass()), rotation(*body.rotation()));
+    let [way, turn] = [(start.position - rounded.0).norm(), start.rotation.angle_to(&rounded.1)];
+    let is_led_back = isolated && way.max(turn) <= LEADING_SPEED * h;
+    let (from, attitude) = if is_led_back { rounded } else { (start.position, start.rotation) };
     let linvel = to_vector(&((end.position - from) / h));
     let turn = (end.rotation * attitude.inverse()).scaled_axis() / h;
     let angvel = match mechanism {

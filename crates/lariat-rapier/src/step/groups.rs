@@ -14,10 +14,9 @@ use crate::contents::Contents;
 use crate::convert::{rotation, to_vector, vector};
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Mechanism, velocity_of};
-use crate::scales::step::REACTION_GAIN;
 use crate::step::impedance::motor_impulse;
 use crate::step::prediction::{AppliedMotion, Prediction};
-use crate::step::reaction::persisting_share;
+use crate::step::reaction::{gain, persisting_share, weight_of_places};
 use ::nalgebra::{DVector, Vector6};
 use lariat_ancf::island::RigidBody;
 use rapier::pipeline::PhysicsWorld;
@@ -150,7 +149,7 @@ fn watch(
             time,
         };
         let record = contents.records.record_mut(part.mechanism.handle);
-        record.pull += REACTION_GAIN * (step.pull / h - record.pull);
+        record.pull += gain(h) * (step.pull / h - record.pull);
         record.settling.note(&step);
     }
 }
@@ -176,7 +175,7 @@ fn update_reactions(
         let turned = (rotation(*body.rotation()) * end.rotation.inverse()).scaled_axis();
         stack_spatial(&((vector(body.center_of_mass()) - end.position) / h), &(turned / h))
     }));
-    let change = deviation + moved;
+    let change = deviation + moved * weight_of_places(h);
     let known =
         group.stack_of(parts.iter().map(|part| {
             contents.records.reaction(part.mechanism.handle) * h - motor_impulse(island, prediction, part.m)
@@ -186,7 +185,7 @@ fn update_reactions(
     let impulses = (known + group.implied_impulses(&change, parts[0].mechanism.loads.isolated)) * (share / h);
     for (part, impulse) in parts.iter().zip(impulses.as_slice().chunks_exact(6)) {
         let record = contents.records.record_mut(part.mechanism.handle);
-        record.reaction += REACTION_GAIN * (Vector6::from_column_slice(impulse) - record.reaction);
+        record.reaction += gain(h) * (Vector6::from_column_slice(impulse) - record.reaction);
     }
 }
 

@@ -16,7 +16,7 @@ use crate::step::prediction::StepParameters;
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::Motion;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{CLOSING_SPEED, RigidBody};
+use lariat_ancf::island::{RigidBody, closing_share};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
@@ -85,10 +85,9 @@ pub(crate) fn prescribe(
                 (origin + arm, v + w.cross(&arm))
             });
         let from = cable.node_position(a.node);
-        // after a teleport the node follows with CLOSING_SPEED at most
+        // after a teleport the node follows at a limited speed
         let behind = from - start;
-        let left = (1.0 - CLOSING_SPEED * step.h / (1.5 * behind.norm()).max(f64::MIN_POSITIVE)).max(0.0);
-        let target = end + behind * left;
+        let target = end + behind * (1.0 - closing_share(behind.norm(), step.h));
         let motion = Motion::hermite(cable.time(), step.h, (from, start_velocity), (target, end_velocity));
         cable.set_motion(a.node, motion)?;
         a.last_anchor.get_or_insert(start);

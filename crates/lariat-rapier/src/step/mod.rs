@@ -177,7 +177,7 @@ pub(crate) fn predict_next(
 
 /// Splits the rest of a host step finer, if a body met another since it began.
 fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Settings, host: &mut HostStep) {
-    let max = settings.max_rapier_steps / host.steps;
+    let max = settings.most_rapier_steps(f64::from(host.dt)) / host.steps;
     let needed = substepping::count(contents, world, settings, f64::from(host.dt));
     let finer = needed.div_ceil(host.steps).min(max);
     if finer > 1 {
@@ -224,8 +224,8 @@ fn predict_islands(
         integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
         let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
         let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
-        let parts = (turn / MAX_TURN_ERROR).sqrt().ceil().min(f64::from(settings.max_rapier_steps)) as u32;
-        let parts = parts.min(settings.max_rapier_steps / host.steps).max(1);
+        let parts = (turn / MAX_TURN_ERROR).sqrt().ceil().min(f64::from(u32::MAX)) as u32;
+        let parts = parts.min(settings.most_rapier_steps(f64::from(host.dt)) / host.steps).max(1);
         // an island that cannot step has no motion, and no state from before it
         let before = |island: usize, cable: usize| {
             let moved = predictions.get(island).filter(|p| !p.refused && p.error.is_none())?;

@@ -1,6 +1,7 @@
 //! Settings of a set.
 
-use crate::scales::step::{MAX_RAPIER_STEPS, RAPIER_STEPS, SLEEP_SPEED};
+use crate::scales::TIME_ROUNDING;
+use crate::scales::step::{LONGEST_PIECE, MAX_RAPIER_STEPS, RAPIER_STEPS, SLEEP_SPEED};
 use crate::step::budget::Budget;
 use lariat_ancf::Fidelity;
 use serde::{Deserialize, Serialize};
@@ -14,7 +15,7 @@ pub struct Settings {
     /// Largest number of Rapier steps per host step. More than `rapier_steps` are taken where a
     /// light body in contact hangs on a stiff, taut cable, enough to resolve its vibration, and for
     /// as long as it does. Default 32. A value of `rapier_steps` or less fixes the number at
-    /// `rapier_steps`.
+    /// `rapier_steps`. A host step of more than 1/30 s may have as many in each 1/30 s.
     #[serde(default = "max_rapier_steps")]
     pub max_rapier_steps: u32,
     /// Speed in m/s below which cables and the bodies on them may fall asleep, if the forces
@@ -31,6 +32,20 @@ pub struct Settings {
     /// The largest amount of work in a host step. Default: no limit.
     #[serde(default)]
     pub budget: Option<Budget>,
+}
+
+impl Settings {
+    /// Returns the largest number of Rapier steps in a host step of `dt` (s).
+    pub(crate) fn most_rapier_steps(&self, dt: f64) -> u32 {
+        let pieces = f64::from(pieces(dt)) * f64::from(self.max_rapier_steps);
+        // a number that is too large becomes the largest
+        if self.max_rapier_steps <= self.rapier_steps { self.rapier_steps.max(1) } else { pieces as u32 }
+    }
+}
+
+/// Returns the number of pieces of a host step of `dt` (s) that are no longer than [`LONGEST_PIECE`].
+pub(crate) fn pieces(dt: f64) -> u32 {
+    (dt / LONGEST_PIECE * (1.0 - TIME_ROUNDING)).ceil().max(1.0) as u32
 }
 
 fn watch() -> bool {

@@ -19,6 +19,7 @@ mod drums;
 mod energy;
 mod free_flight;
 mod hoist;
+mod host_steps;
 mod joints;
 mod lever;
 mod moving_ends;

@@ -53,7 +53,7 @@ impl HoldStep {
     pub fn follow(&mut self, layout: &Layout, body: &BodyStep, state: &State, b: &mut StepVectors) {
         let (time, h) = (state.time, b.h);
         let start = vector(&state.q[self.at..]);
-        let change = if self.slope {
+        let (change, mean) = if self.slope {
             let candidate = start + vector(&b.change[self.at..]);
             let direction = |time: f64| {
                 layout.clamps[self.pin].as_ref().map_or_else(Vector3::zeros, |clamp| clamp.at(layout.elapsed(time))[0])
@@ -63,18 +63,22 @@ impl HoldStep {
             self.stretch = d1.dot(&candidate) - d0.dot(&start);
             self.arm = 0.5 * (start + end);
             self.along = 0.5 * (d0 + d1) - body.mean[1].cross(&(d1 - d0)) * (0.25 * h);
-            end - start
+            let change = end - start;
+            self.driven = change - self.velocity(body) * h - self.along * self.stretch;
+            (change, change / h)
         } else {
             let [rho0, rho1] = body.ends(&layout.pins[self.pin].anchor);
             self.arm = 0.5 * (rho0 + rho1);
             let gap = layout.gap(self.pin, time + h).0 - layout.gap(self.pin, time).0;
-            body.displacement() + rho1 - rho0 + gap
+            self.driven = gap;
+            // the difference of places is rounded, by more than the velocity in a step of less than 1e-6 s
+            let mean = self.velocity(body) + gap / h;
+            (mean * h, mean)
         };
-        self.driven = change - self.velocity(body) * h - self.along * self.stretch;
         for x in 0..3 {
             let i = self.at + x;
             b.change[i] = change[x];
-            b.velocity_change[i] = (change[x] / h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
+            b.velocity_change[i] = (mean[x] - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
         }
     }
 

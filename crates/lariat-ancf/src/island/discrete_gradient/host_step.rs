@@ -39,7 +39,7 @@ impl HostStep<'_, '_> {
         }
         self.cables.iter_mut().for_each(|cable| cable.refresh_memory());
         let time = self.cables[0].time();
-        if let Err(failure) = self.match_velocities() {
+        if let Err(failure) = self.match_velocities(dt) {
             self.restore();
             return Err(self.cables[0].step_failed(time, 0.0, failure));
         }
@@ -80,12 +80,12 @@ impl HostStep<'_, '_> {
         self.accounts.end(self.cables, self.layout);
     }
 
-    /// Gives pinned nodes the velocities of their bodies, and the deviations that they had from them.
-    fn match_velocities(&mut self) -> Result<(), StepFailure> {
+    /// Gives pinned nodes the velocities of their bodies, and the deviations that they had from them, for a step of `dt` (s).
+    fn match_velocities(&mut self, dt: f64) -> Result<(), StepFailure> {
         let HostStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state } = self;
         let deviations: &mut Vec<[Vector3<f64>; 2]> = &mut buffers.deviations;
         deviations.clear();
-        deviations.extend((0..layout.pins.len()).map(|pin| deviation(cables, bodies, layout, pin)));
+        deviations.extend((0..layout.pins.len()).map(|pin| deviation(cables, bodies, layout, pin, dt)));
         let add = |deviations: &[[Vector3<f64>; 2]], factor: f64, v: &mut [f64]| {
             for (pin, [position, slope]) in deviations.iter().enumerate() {
                 let at = layout.pin_at(pin);
@@ -125,8 +125,9 @@ impl HostStep<'_, '_> {
 }
 
 /// Returns the velocity of a pinned node, and of its slope if that is clamped, beside those that its body had at the end of the last
-/// step; zero if that is not known.
-fn deviation(cables: &[&mut Cable], bodies: &[RigidBody], layout: &Layout, pin: usize) -> [Vector3<f64>; 2] {
+/// step; zero if that is not known. Before a shorter step, of `dt` (s), it is what it would be of that, by the square of its length: else
+/// the node would swing about its body by what a long step left.
+fn deviation(cables: &[&mut Cable], bodies: &[RigidBody], layout: &Layout, pin: usize, dt: f64) -> [Vector3<f64>; 2] {
     let pin = &layout.pins[pin];
     let state = &cables[pin.cable].snapshot.state;
     let Some(last) = bodies[pin.body].memory.as_ref().and_then(|memory| memory.differences.as_ref()) else {
@@ -143,5 +144,6 @@ fn deviation(cables: &[&mut Cable], bodies: &[RigidBody], layout: &Layout, pin: 
         let (t, rate) = (vector(&state.q[at + 3..]), vector(&state.v[at + 3..]));
         rate - d * d.dot(&rate) - spin.cross(&d) * d.dot(&t)
     });
-    [position, slope]
+    let share = (dt / last.step).min(1.0).powi(2);
+    [position * share, slope * share]
 }
