@@ -101,6 +101,26 @@ pub enum Error {
         /// Distance of the node from the anchor in m.
         gap: f64,
     },
+    /// A body that is to be moved with its cables, and is joined to one that is not, or a link of a
+    /// multibody.
+    #[error(
+        "body {body:?} cannot be moved with its cables: move all bodies that joints connect at once; links of multibodies cannot be moved"
+    )]
+    JointInMove {
+        /// The body.
+        body: RigidBodyHandle,
+    },
+    /// A cable on bodies that are to be moved, which something else holds, too.
+    #[error(
+        "cable {cable:?} cannot be moved with the bodies: something holds it that stays where it is; move that too, or detach it first"
+    )]
+    HeldInMove {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// A motion by which bodies are to be moved that is not finite, or turns by no unit quaternion.
+    #[error("bodies cannot be moved by what is not a finite displacement and a rotation")]
+    MoveNotFinite,
     /// A joint on a body whose equilibrium is asked for.
     #[error("statics compute no joints, and body {body:?} has one: remove it, or step until the body rests")]
     JointInStatics {

@@ -29,8 +29,9 @@ pub(crate) mod body {
     /// Rapier's linearised rotation. Unknown: its tangent, which corrects it, is finite below pi/2.
     pub(crate) const MAX_HALF_ROTATION: f64 = 1.2;
 
-    /// Speed in m/s, and rad/s, up to which a body is led back from where single precision rounded it. Derived: far below that to which Rapier
-    /// limits bodies, 400 m/s, and far above the rounding of a place within 1 km in a step of 1e-5 s.
+    /// Speed in m/s, and rad/s, up to which a body is led back from where single precision rounded
+    /// it. Derived: far below that to which Rapier limits bodies, 400 m/s, and far above the
+    /// rounding of a place within 1 km in a step of 1e-5 s.
     pub(crate) const LEADING_SPEED: f64 = 10.0;
 
     /// Mass of a ledger in kg. Derived: an impulse of 1e3 N s moves it at 1e-6 m/s.
@@ -168,13 +169,16 @@ pub(crate) mod step {
     /// [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps).
     pub(crate) const MAX_RAPIER_STEPS: u32 = 32;
 
-    /// Length in s of the piece of a host step for which that number holds; a longer host step has as many for each. Derived: a host step of
-    /// seconds is then stepped as finely as one of 30 Hz, the coarsest that the other numbers were measured with.
+    /// Length in s of the piece of a host step for which that number holds; a longer host step has
+    /// as many for each. Derived: a host step of seconds is then stepped as finely as one of 30 Hz,
+    /// the coarsest that the other numbers were measured with.
     pub(crate) const LONGEST_PIECE: f64 = 1.0 / 30.0;
 
-    /// Time in s over which a deviation of a body counts that a shorter Rapier step made: what single precision rounds would else read as a
-    /// force of 1/h, and of the place of a body as one of 1/h^2. Derived: the finest Rapier step of a host step of 1/60 s, 32 of them.
-    /// Measured: with 1/960 s a cube of 1 kg that a steel bar jams, which needs those, holds its tension no more to 0.2 % (tests, contact.rs).
+    /// Time in s over which a deviation of a body counts that a shorter Rapier step made: what
+    /// single precision rounds would else read as a force of 1/h, and of the place of a body as one
+    /// of 1/h^2. Derived: the finest Rapier step of a host step of 1/60 s, 32 of them. Measured:
+    /// with 1/960 s a cube of 1 kg that a steel bar jams, which needs those, holds its tension no
+    /// more to 0.2 % (tests, contact.rs).
     pub(crate) const SHORTEST_REACTION: f64 = 1.0 / 1920.0;
 
     /// Speed in m/s below which cables and bodies may sleep. Setting:

@@ -5,7 +5,7 @@ use super::{Cable, Snapshot};
 use crate::error::{Error, require, require_finite};
 use crate::support::SlopeSupport;
 use crate::term::EnergyLaw;
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 impl Cable {
     /// Returns the nodal coordinates, flat: by node the position (m) and the slope dr/ds.
@@ -135,6 +135,14 @@ impl Cable {
         }
         self.disturb_motion();
         Ok(())
+    }
+
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn move_by(&mut self, turn: &UnitQuaternion<f64>, by: &Vector3<f64>) {
+        self.snapshot.state.move_by(turn, by);
+        if let Some(watch) = &mut self.watch {
+            watch.interrupt();
+        }
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

@@ -9,7 +9,7 @@ use crate::integrate::{Fidelity, Integrator};
 use crate::rule::Rule;
 use crate::strength::Load;
 use crate::warning::{IslandChange, Warning};
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 /// What a coupling to an engine needs of a cable, and the user of a rope does not: nodes that
 /// bodies hold, keys of contacts, reels of a host step, readings of an island.
@@ -126,6 +126,11 @@ pub trait Coupling {
     /// # Errors
     /// [`Error::InvalidValue`] for numbers that are not finite.
     fn set_rigid_motion(&mut self, velocity: Vector3<f64>, angular_velocity: Vector3<f64>) -> Result<(), Error>;
+
+    /// Moves shape, motion and what the method remembers rigidly: turned about the origin, then
+    /// displaced by `by` (m). Contacts are forgotten. For those who move a cable with all that
+    /// holds it: supports, loads and effects stay as they are.
+    fn move_by(&mut self, turn: &UnitQuaternion<f64>, by: &Vector3<f64>);
 
     /// Returns whether no support and no reel moves.
     fn is_held_still(&self) -> bool;
@@ -263,6 +268,10 @@ impl Coupling for Cable {
 
     fn set_rigid_motion(&mut self, velocity: Vector3<f64>, angular_velocity: Vector3<f64>) -> Result<(), Error> {
         Cable::set_rigid_motion(self, velocity, angular_velocity)
+    }
+
+    fn move_by(&mut self, turn: &UnitQuaternion<f64>, by: &Vector3<f64>) {
+        Cable::move_by(self, turn, by)
     }
 
     fn is_held_still(&self) -> bool {

@@ -182,6 +182,22 @@ impl RigidBody {
         Ok(body)
     }
 
+    /// Moves it rigidly, with what it remembers of its last step: turned about the origin, then
+    /// displaced by `by` (m). Forces stay as they are.
+    pub fn move_by(&mut self, turn: &UnitQuaternion<f64>, by: &Vector3<f64>) {
+        (self.position, self.rotation) = (turn * self.position + by, turn * self.rotation);
+        (self.velocity, self.angular_velocity) = (turn * self.velocity, turn * self.angular_velocity);
+        let Some(memory) = &mut self.memory else { return };
+        memory.acceleration = memory.acceleration.map(|a| turn * a);
+        memory.algorithmic = memory.algorithmic.map(|both| both.map(|a| turn * a));
+        if let Some(last) = &mut memory.differences {
+            // the change of the angular velocity is in body axes
+            last.change[0] = turn * last.change[0];
+            last.velocity = last.velocity.map(|v| turn * v);
+            last.rotation = turn * last.rotation;
+        }
+    }
+
     /// Returns whether it is driven: forces neither move nor rotate it.
     pub(super) fn is_driven(&self) -> bool {
         self.free == [false; 6]

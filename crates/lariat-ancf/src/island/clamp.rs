@@ -31,8 +31,8 @@ pub(super) struct Clamp {
 
 impl Clamp {
     /// Rotates from the `present` direction of the slope to the `wanted` one of the clamp, both
-    /// unit vectors in body axes, within `duration` (s), or by a `share` of the angle. `rates` are the angular velocities of the
-    /// body beyond its mean at both ends of the step, in body axes.
+    /// unit vectors in body axes, within `duration` (s), or by a `share` of the angle. `rates` are
+    /// the angular velocities of the body beyond its mean at both ends of the step, in body axes.
     pub fn new(
         present: Vector3<f64>,
         wanted: Vector3<f64>,

@@ -23,7 +23,13 @@ pub(crate) const ANGLE_ROUNDING: f64 = 1e-12;
 
 /// Largest mean speed in m/s with which a gap closes, to limit the acceleration of the cable after
 /// a teleport. Unknown: a gap of 1 m is closed in six frames.
-pub const CLOSING_SPEED: f64 = 10.0;
+pub(crate) const CLOSING_SPEED: f64 = 10.0;
+
+/// Time in s below which a step closes a gap in part, by the square of its share of it: the
+/// acceleration of the cable, that of `6 gap/h^2`, is then at most that of a step of this length,
+/// and a gap that is the rounding of an engine pulls no harder in a shorter one. Derived:
+/// lariat-rapier takes no finer steps of a frame of 1/60 s.
+pub(crate) const SHORTEST_CLOSING: f64 = 1.0 / 1920.0;
 
 /// Where the cosine between a slope and its clamp is below minus this, the slope of a cable without
 /// bending stiffness has reversed: it is along the clamp, with negative stretch. Treating this as a

@@ -9,6 +9,7 @@ pub(crate) use contact::{Key, renumber};
 pub use differences::Differences;
 
 use crate::error::{Error, require};
+use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// What a method carries from step to step, besides positions and velocities. Plain data, part of a
@@ -129,6 +130,25 @@ impl State {
         self.memory.contacts.clone_from(contacts);
         self.memory.pairs.clone_from(pairs);
         self.memory.least_damping = *least_damping;
+    }
+
+    /// Moves the state rigidly: turned about the origin, then displaced by `by` (m). What the
+    /// method carries turns with it; contacts, which are at other places then, are forgotten.
+    pub(crate) fn move_by(&mut self, turn: &UnitQuaternion<f64>, by: &Vector3<f64>) {
+        let turned = |x: &mut [f64]| {
+            for x in x.chunks_exact_mut(3) {
+                x.copy_from_slice((turn * Vector3::new(x[0], x[1], x[2])).as_slice());
+            }
+        };
+        let Memory { acceleration, algorithmic, differences, contacts, pairs, .. } = &mut self.memory;
+        for vectors in [&mut self.q, &mut self.v, acceleration, algorithmic, &mut differences.velocity] {
+            turned(vectors);
+        }
+        turned(&mut differences.displacement);
+        turned(&mut differences.owed);
+        self.q.chunks_exact_mut(6).for_each(|q| q.iter_mut().zip(by.iter()).for_each(|(q, by)| *q += by));
+        contacts.clear();
+        pairs.clear();
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.

@@ -3,11 +3,12 @@
 use super::CableSet;
 use crate::contents::attachment::{Attachment, AttachmentOptions, Gap};
 use crate::contents::junction::Junction;
-use crate::edit::{attach, join};
+use crate::edit::{attach, join, movement, world_mark};
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use lariat_ancf::{At, Point};
 use rapier::dynamics::RigidBodyHandle;
+use rapier::math::Pose;
 use rapier::pipeline::PhysicsWorld;
 
 impl CableSet {
@@ -48,6 +49,25 @@ impl CableSet {
         let point = (cable, at.into());
         let anchor = attach::anchor_here(&self.contents, world, point, body)?;
         attach::attach(&mut self.contents, world, point, (body, anchor), kind.into())
+    }
+
+    /// Moves bodies by a rigid motion in world axes, with the cables that are attached to them and
+    /// those tied to these: a teleport without a jolt. Velocities turn with them, strains and
+    /// tensions stay; contacts begin anew.
+    ///
+    /// # Errors
+    /// [`Error::HeldInMove`] for a cable that a body which stays, or a support of its own, holds;
+    /// [`Error::JointInMove`] for a body that is joined to one that stays, or a link of a
+    /// multibody; [`Error::MoveNotFinite`], [`Error::NoBody`], [`Error::OtherWorld`]. Nothing has
+    /// moved then.
+    pub fn move_bodies(
+        &mut self,
+        world: &mut PhysicsWorld,
+        bodies: &[RigidBodyHandle],
+        by: &Pose,
+    ) -> Result<(), Error> {
+        world_mark::check(&mut self.contents, world)?;
+        movement::move_bodies(&mut self.contents, world, bodies, by)
     }
 
     /// Ends an attachment and frees its node.

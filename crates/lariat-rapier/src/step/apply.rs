@@ -58,8 +58,8 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector
     let isolated = proximity::is_isolated(world, handle);
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
     let body = &mut world.bodies[handle];
-    // a body that meets nothing is led back from its rounded place; contacts and motors would feel that as a velocity, as would it in a
-    // step that is too short to undo the rounding
+    // a body that meets nothing is led back from its rounded place; contacts and motors would feel
+    // that as a velocity, as would it in a step that is too short to undo the rounding
     let rounded = (vector(body.center_of_mass()), rotation(*body.rotation()));
     let [way, turn] = [(start.position - rounded.0).norm(), start.rotation.angle_to(&rounded.1)];
     let is_led_back = isolated && way.max(turn) <= LEADING_SPEED * h;

@@ -11,9 +11,10 @@
 //! both without a force.
 //!
 //! # Validity
-//! In a Rapier step of h < T = 1/1920 s the factor 0.3 becomes `0.3 h/T`, and places count `(h/T)^2`: the estimate then has the time constant, and an
-//! error of a place the force, of a step of T. What single precision rounds would else be a force of 1/h and 1/h^2: 1.8e8 N of 1 kg on a hinge at
-//! 1e-9 s (test host_steps.rs).
+//! In a Rapier step of h < T = 1/1920 s the factor 0.3 becomes `0.3 h/T`, and places count
+//! `(h/T)^2`: the estimate then has the time constant, and an error of a place the force, of a step
+//! of T. What single precision rounds would else be a force of 1/h and 1/h^2: 1.8e8 N of 1 kg on a
+//! hinge at 1e-9 s (test host_steps.rs).
 //!
 //! # Alternatives considered
 //! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where continuous collision detection stops it.

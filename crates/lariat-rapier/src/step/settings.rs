@@ -43,7 +43,8 @@ impl Settings {
     }
 }
 
-/// Returns the number of pieces of a host step of `dt` (s) that are no longer than [`LONGEST_PIECE`].
+/// Returns the number of pieces of a host step of `dt` (s) that are no longer than
+/// [`LONGEST_PIECE`].
 pub(crate) fn pieces(dt: f64) -> u32 {
     (dt / LONGEST_PIECE * (1.0 - TIME_ROUNDING)).ceil().max(1.0) as u32
 }

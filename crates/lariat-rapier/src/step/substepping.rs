@@ -28,9 +28,11 @@
 //! step is predicted anew, divided. Impulse joints turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
 //! side of the third line per radian.
 //!
-//! *Long host steps.* What is estimated of a body on joints from step to step, and the directions in which it can move, are of the length of a Rapier step; one
-//! of 1.9 s, 32 in a minute, made 1e14 J of 800 kg on a hinge. A host step of more than 1/30 s is therefore taken for as many pieces: bodies on joints
-//! have four Rapier steps in each, and each may have as many as the settings allow.
+//! *Long host steps.* What is estimated of a body on joints from step to step, and the directions
+//! in which it can move, are of the length of a Rapier step; one of 1.9 s, 32 in a minute, made
+//! 1e14 J of 800 kg on a hinge. A host step of more than 1/30 s is therefore taken for as many
+//! pieces: bodies on joints have four Rapier steps in each, and each may have as many as the
+//! settings allow.
 //!
 //! The collisions and the taut cables of the whole coming host step count ([`crate::body::proximity`]). All is evaluated again before each Rapier
 //! step, and the rest of the host step is split finer.

@@ -1,4 +1,5 @@
-//! Host steps of any length: in the middle of a motion, on bodies that are free, on joints, driven and asleep.
+//! Host steps of any length: in the middle of a motion, on bodies that are free, on joints, driven
+//! and asleep.
 
 use super::common::{add_cube, cable, gap, run, soft};
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity};
@@ -57,7 +58,8 @@ impl Swing {
         Swing { world, set, bar }
     }
 
-    /// Takes host steps of `dt` (s); returns the largest force at an attachment after any of them in N.
+    /// Takes host steps of `dt` (s); returns the largest force at an attachment after any of them
+    /// in N.
     fn run(&mut self, dt: f64, steps: usize) -> f64 {
         self.world.integration_parameters.dt = dt as Real;
         let mut largest = 0.0f64;
@@ -80,12 +82,14 @@ impl Swing {
 
 const ALL: [Holding; 5] = [Holding::Free, Holding::Hinge, Holding::Ball, Holding::Weld, Holding::Link];
 
-/// A swing that has run at 240 Hz goes on in 200 host steps of 1e-3 to 1e-9 s, of any holding, mass and fidelity: forces are those of the
-/// motion at 240 Hz, no gap opens, and it is where it should be.
+/// A swing that has run at 240 Hz goes on in 200 host steps of 1e-3 to 1e-9 s, of any holding, mass
+/// and fidelity: forces are those of the motion at 240 Hz, no gap opens, and it is where it should
+/// be.
 ///
-/// Reference: the same motion at 240 Hz over the same time or the next step. Bounds: of forces a tenth beyond the largest before and
-/// after; of places 1e-4 m beside their velocity times the time, of gaps that of single precision at 2 m. Without a bound of what
-/// single precision rounds, 1 kg on a hinge was pulled by 1.8e8 N at 1e-9 s.
+/// Reference: the same motion at 240 Hz over the same time or the next step. Bounds: of forces a
+/// tenth beyond the largest before and after; of places 1e-4 m beside their velocity times the
+/// time, of gaps that of single precision at 2 m. Without a bound of what single precision rounds,
+/// 1 kg on a hinge was pulled by 1.8e8 N at 1e-9 s.
 #[test]
 fn forces_in_tiny_host_steps_are_those_of_the_motion() {
     for holding in ALL {
@@ -120,7 +124,8 @@ fn forces_in_tiny_host_steps_are_those_of_the_motion() {
     }
 }
 
-/// A load of 30 kg on a rope from a carriage that moves at 0.5 m/s, by its velocity or from pose to pose, or one that sleeps.
+/// A load of 30 kg on a rope from a carriage that moves at 0.5 m/s, by its velocity or from pose to
+/// pose, or one that sleeps.
 ///
 /// Reference: as above.
 #[test]
@@ -173,10 +178,11 @@ fn a_carriage_in_tiny_host_steps_pulls_no_harder() {
     }
 }
 
-/// A swing goes on in host steps of half a second to a minute, of any holding that is held: it makes no energy, its parts stay together, and
-/// it is not put to sleep in mid-air.
+/// A swing goes on in host steps of half a second to a minute, of any holding that is held: it
+/// makes no energy, its parts stay together, and it is not put to sleep in mid-air.
 ///
-/// Reference: the energy law, and of sleep the speed that the user allows. In a host step of 60 s, 800 kg on a hinge made 1e14 J.
+/// Reference: the energy law, and of sleep the speed that the user allows. In a host step of 60 s,
+/// 800 kg on a hinge made 1e14 J.
 #[test]
 fn long_host_steps_make_no_energy_and_freeze_nothing() {
     for holding in [Holding::Free, Holding::Hinge, Holding::Link] {
@@ -204,8 +210,8 @@ fn long_host_steps_make_no_energy_and_freeze_nothing() {
     }
 }
 
-/// A host step of no length, or of one that single precision cannot add to a time, changes nothing that can be seen, and the next one is as
-/// if it had not been.
+/// A host step of no length, or of one that single precision cannot add to a time, changes nothing
+/// that can be seen, and the next one is as if it had not been.
 ///
 /// Reference: the same run without them; of those that are no number or negative, the typed error.
 #[test]

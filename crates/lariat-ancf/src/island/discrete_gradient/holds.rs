@@ -71,7 +71,8 @@ impl HoldStep {
             self.arm = 0.5 * (rho0 + rho1);
             let gap = layout.gap(self.pin, time + h).0 - layout.gap(self.pin, time).0;
             self.driven = gap;
-            // the difference of places is rounded, by more than the velocity in a step of less than 1e-6 s
+            // the difference of places is rounded, by more than the velocity in a step of less than
+            // 1e-6 s
             let mean = self.velocity(body) + gap / h;
             (mean * h, mean)
         };

@@ -80,7 +80,8 @@ impl HostStep<'_, '_> {
         self.accounts.end(self.cables, self.layout);
     }
 
-    /// Gives pinned nodes the velocities of their bodies, and the deviations that they had from them, for a step of `dt` (s).
+    /// Gives pinned nodes the velocities of their bodies, and the deviations that they had from
+    /// them, for a step of `dt` (s).
     fn match_velocities(&mut self, dt: f64) -> Result<(), StepFailure> {
         let HostStep { cables, bodies, layout, matrices, accounts, vectors, buffers, state } = self;
         let deviations: &mut Vec<[Vector3<f64>; 2]> = &mut buffers.deviations;
@@ -124,9 +125,10 @@ impl HostStep<'_, '_> {
     }
 }
 
-/// Returns the velocity of a pinned node, and of its slope if that is clamped, beside those that its body had at the end of the last
-/// step; zero if that is not known. Before a shorter step, of `dt` (s), it is what it would be of that, by the square of its length: else
-/// the node would swing about its body by what a long step left.
+/// Returns the velocity of a pinned node, and of its slope if that is clamped, beside those that
+/// its body had at the end of the last step; zero if that is not known. Before a shorter step, of
+/// `dt` (s), it is what it would be of that, by the square of its length: else the node would swing
+/// about its body by what a long step left.
 fn deviation(cables: &[&mut Cable], bodies: &[RigidBody], layout: &Layout, pin: usize, dt: f64) -> [Vector3<f64>; 2] {
     let pin = &layout.pins[pin];
     let state = &cables[pin.cable].snapshot.state;
