@@ -56,6 +56,10 @@ pub struct Diagnostics {
     /// step itself.
     #[serde(default)]
     pub lagging_steps: u64,
+    /// Steps of the discrete gradient under a tolerance that were accepted at the shortest length,
+    /// a 64th of the host step, with an estimated error above the tolerance.
+    #[serde(default)]
+    pub unresolved_steps: u64,
     /// Newton iterations of the discrete gradient beyond the first one of a step, by the reason for
     /// them.
     #[serde(default)]
@@ -78,7 +82,8 @@ macro_rules! by_field {
     ($a:expr, $b:expr, $op:expr, $rest:expr) => {
         by_field!(@ $a, $b, $op, $rest; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, lagging_steps, warnings)
+            load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, lagging_steps,
+            unresolved_steps, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $rest:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* ..$rest }

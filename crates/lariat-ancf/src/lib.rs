@@ -57,6 +57,7 @@ pub mod linalg;
 mod load;
 mod model;
 mod obstacle;
+mod one_leg;
 mod point;
 mod quadrature;
 mod real;

@@ -3,7 +3,7 @@
 use super::Cable;
 use crate::effect::*;
 use crate::error::{Error, Requirement};
-use crate::integrate::Fidelity;
+use crate::integrate::{Fidelity, Integrator};
 use crate::rule::BendingRule;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -21,7 +21,8 @@ impl Cable {
 
     /// Replaces all effects from the next step on. Positions and velocities stay as they are. Not
     /// meant for every step, because it builds tables and factors the mass matrix. A cable with the
-    /// default integrator gets that of the fidelity `game` with [`Contact`].
+    /// default integrator gets that of the fidelity `game` with [`Contact`], one for which the
+    /// fidelity `engineering` was chosen [`Integrator::COUPLED`].
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect
@@ -34,6 +35,8 @@ impl Cable {
         let mut integrator = self.integrator();
         if effects.contact.is_some() && self.default_integrator {
             integrator = self.integrator_for(Fidelity::Game);
+        } else if effects.contact.is_some() && integrator == Integrator::default() {
+            integrator = Integrator::COUPLED;
         }
         self.redefine(self.rule(), effects, integrator)
     }

@@ -213,8 +213,12 @@ impl Cable {
 
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator {
-        let implicit = self.model.effects.needs_implicit_integrator();
-        choice.into().integrator(if implicit { f64::INFINITY } else { self.frequency_bound() })
+        let (choice, model) = (choice.into(), &self.model);
+        if choice == Fidelity::Engineering && (model.effects.contact.is_some() || model.reels.have_laws()) {
+            return Integrator::COUPLED;
+        }
+        let implicit = model.effects.needs_implicit_integrator();
+        choice.integrator(if implicit { f64::INFINITY } else { self.frequency_bound() })
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

@@ -33,7 +33,7 @@ impl ContactStep {
         if obstacles.is_empty() {
             return;
         }
-        self.h = motion.h;
+        (self.h, self.leg) = (motion.h, motion.leg);
         self.obstacles.clear();
         self.obstacles.extend(obstacles.iter().map(|obstacle| match &obstacle.mount {
             Some(mount) => ObstacleStep::carried(mount, &motion.bodies[mount.body], motion.h),

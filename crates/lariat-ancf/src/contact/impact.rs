@@ -51,8 +51,8 @@ use super::impulse::Impact;
 use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::element::assembly::add_force;
+use crate::one_leg::OneLeg;
 use crate::scales::contact::{GIVEN, MAX_SOLVES};
-use crate::scales::integrate::BETA;
 use nalgebra::Vector3;
 
 /// An end of a step.
@@ -85,7 +85,7 @@ impl ContactPoint {
         normal: Vector3<f64>,
         [beside, obstacle]: [Vector3<f64>; 2],
         came: f64,
-        (h, mass): (f64, f64),
+        (h, leg, mass): (f64, OneLeg, f64),
     ) -> f64 {
         let (linear, weight) = (&self.linear, self.weight);
         let across = normal.dot(&beside);
@@ -102,7 +102,7 @@ impl ContactPoint {
         if over <= 0.0 && !gives {
             return 0.0;
         }
-        let scale = BETA * h * h;
+        let scale = leg.b * h * h;
         let (gain, friction) = (scale * weight * linear.slope, linear.tangents.friction * scale);
         let mut impact =
             Impact { obstacle, beside, normal, rebound, gives, given: 0.0, gain, friction, row: Vector3::zeros() };
@@ -164,7 +164,7 @@ impl ContactStep {
                     0.0
                 };
                 let beside = velocity(When::End, element, shape) - obstacle;
-                energy += point.find_impact(normal, [beside, obstacle], came, (self.h, mass(element)));
+                energy += point.find_impact(normal, [beside, obstacle], came, (self.h, self.leg, mass(element)));
             }
         }
         energy

@@ -2,6 +2,7 @@
 
 use super::path::BodyPath;
 use crate::model::Model;
+use crate::one_leg::OneLeg;
 use crate::state::ContactMemory;
 
 /// A step of a cable, as the search sees it.
@@ -9,6 +10,7 @@ pub(crate) struct Motion<'a> {
     pub model: &'a Model,
     pub time: f64,
     pub h: f64,
+    pub leg: OneLeg,
     pub q: &'a [f64],
     /// Change of the coordinates in the first iterate.
     pub change: &'a [f64],

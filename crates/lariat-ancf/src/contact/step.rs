@@ -9,7 +9,7 @@ use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::combine;
 use crate::linalg::BlockTridiagonal;
 use crate::obstacle::Obstacle;
-use crate::scales::integrate::BETA;
+use crate::one_leg::OneLeg;
 use crate::state::{ContactMemory, Key};
 use crate::term::{Account, Balance};
 use nalgebra::Matrix3;
@@ -37,6 +37,7 @@ pub(crate) struct ContactStep {
     pub(super) tests: u64,
     /// Length of the step in s.
     pub(super) h: f64,
+    pub(super) leg: OneLeg,
     /// Share of every offset that closes in the step.
     pub(super) closes: f64,
     /// Columns of the bodies that are touched, as the last linear solve sees them.
@@ -135,7 +136,7 @@ impl ContactStep {
     /// Adds h times the forces, linear about an iterate, to `rhs`, and `b h^2` times their tangents to the matrix and to the columns of the
     /// bodies that carry obstacles.
     pub fn linearise(&mut self, change: &[f64], rhs: &mut [f64], matrix: &mut BlockTridiagonal) {
-        let h = self.h;
+        let (h, b) = (self.h, self.leg.b);
         self.borders.begin(rhs.len());
         for point in &mut self.points {
             point.linearise(&self.obstacles[point.obstacle], |e, shape| combine(change, e, shape));
@@ -152,14 +153,14 @@ impl ContactStep {
                 Some(_) => [(normal, &linear.row.shape), (friction, &point.shape)],
             };
             for (tangent, shape) in parts.into_iter().filter(|(tangent, _)| *tangent != Matrix3::zeros()) {
-                let tangent = tangent * (BETA * h * h);
+                let tangent = tangent * (b * h * h);
                 if let Some(body) = self.obstacles[point.obstacle].body {
                     self.borders.add(body, element, shape, &tangent, &linear.arm);
                 }
                 add_tangent(matrix, element, shape, &tangent);
             }
             if let Some(roll) = &point.roll {
-                let stiffness = linear.normal_force * roll.length * (roll.share * BETA * h * h);
+                let stiffness = linear.normal_force * roll.length * (roll.share * b * h * h);
                 let normal = linear.normal;
                 add_tangent(matrix, element, &roll.slope, &(normal * normal.transpose() * stiffness));
             }

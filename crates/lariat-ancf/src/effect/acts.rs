@@ -6,8 +6,8 @@ use crate::dual::{Dual, Slope};
 use crate::element::gram::Control;
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
+use crate::one_leg::OneLeg;
 use crate::real::Real;
-use crate::scales::integrate::BETA;
 use crate::section::Section;
 use core::fmt::Debug;
 use fearless_simd::Level;
@@ -86,6 +86,8 @@ pub(crate) struct StepInput<'a> {
     pub velocity_before: &'a [f64],
     /// Length of the step in s.
     pub h: f64,
+    /// Its formula.
+    pub leg: OneLeg,
 }
 
 /// Loads the numbers of a single element.
@@ -163,13 +165,13 @@ pub(crate) trait PointForce: Clone + Debug {
         out: &mut [f64],
         matrix: Option<&mut BlockTridiagonal>,
     ) {
-        let StepInput { time, middle: q, velocity: v, h, .. } = step;
+        let StepInput { time, middle: q, velocity: v, h, leg, .. } = step;
         // the mean configuration changes by half the change, the velocity by 2/h of that
         let input = ForceInput { time, q, v, dv_dq: 2.0 / h, scale: 1.0 };
         let Some(matrix) = matrix else {
             return self.add(level, input, out, None);
         };
-        let scale = 0.5 * BETA * h * h;
+        let scale = 0.5 * leg.b * h * h;
         out.iter_mut().for_each(|f| *f *= scale);
         self.add(level, ForceInput { scale, ..input }, out, Some(matrix));
         out.iter_mut().for_each(|f| *f *= 1.0 / scale);

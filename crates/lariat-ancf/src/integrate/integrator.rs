@@ -5,6 +5,7 @@ use super::method::Method;
 use super::one_step::OneStep;
 use super::work_limit::WorkLimit;
 use crate::error::{Error, require};
+use crate::scales::integrate::LITTLE_DISSIPATION;
 use serde::{Deserialize, Serialize};
 
 /// How the length of the integration steps within a host step is chosen. The last one always ends
@@ -52,6 +53,14 @@ impl Default for Integrator {
 }
 
 impl Integrator {
+    /// What [`Fidelity::Engineering`](super::Fidelity::Engineering) is where contact, clutches,
+    /// sheaves or drums need the discrete gradient: 1e-5 m per host step of the free bodies, or of
+    /// the motion of a cable without any, with the dissipation 1/256.
+    pub const COUPLED: Integrator = Integrator {
+        method: Method::DiscreteGradientWith { dissipation: LITTLE_DISSIPATION },
+        control: StepControl::ToleranceOf(1e-5, ErrorNorm::Bodies),
+    };
+
     /// Returns a method with a tolerance in m of position error per host step.
     ///
     /// # Errors
@@ -142,7 +151,7 @@ impl IntegratorRef<'_> {
     }
 
     /// Returns the tolerance in m per host step, if the error is controlled.
-    pub(super) fn tolerance(&self) -> Option<f64> {
+    pub(crate) fn tolerance(&self) -> Option<f64> {
         match self.control {
             StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => Some(tolerance),
             _ => None,

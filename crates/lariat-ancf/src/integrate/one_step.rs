@@ -148,6 +148,12 @@ pub trait OneStep: fmt::Debug {
         false
     }
 
+    /// Returns the dissipation a of such a method, 0 to 1/16: a motion of angular frequency omega
+    /// is damped by the ratio a (h omega)^3/2 in steps of h. Default 1/16.
+    fn dissipation(&self) -> f64 {
+        crate::scales::integrate::ALPHA
+    }
+
     /// Checks the parameters of the method. Default: nothing to check.
     ///
     /// # Errors

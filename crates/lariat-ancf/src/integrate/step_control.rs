@@ -51,6 +51,8 @@ pub(crate) struct Counts {
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
+    /// Accepted steps of the shortest length with an error above the tolerance.
+    pub unresolved: u64,
 }
 
 /// A host step that failed.

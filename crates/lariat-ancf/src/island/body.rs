@@ -12,7 +12,6 @@
 //! Khatib 1987, the operational space inertia.
 
 use crate::error::{Error, require, require_finite};
-use crate::scales::integrate::ALPHA;
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +56,9 @@ pub(super) struct BodyDifferences {
     pub change: [Vector3<f64>; 2],
     /// Length of the step in s.
     pub step: f64,
+    /// Dissipation a of its formula.
+    #[serde(default = "crate::one_leg::of_games")]
+    pub dissipation: f64,
     /// Velocity and angular velocity at its end, in world axes.
     pub velocity: [Vector3<f64>; 2],
     /// Attitude at its end.
@@ -237,7 +239,7 @@ impl RigidBody {
     pub fn energy_in_store(&self) -> f64 {
         let Some(last) = self.memory.as_ref().and_then(|memory| memory.differences.as_ref()) else { return 0.0 };
         let [velocity, spin] = last.change;
-        0.5 * ALPHA * (self.mass * velocity.norm_squared() + spin.dot(&(self.inertia * spin)))
+        0.5 * last.dissipation * (self.mass * velocity.norm_squared() + spin.dot(&(self.inertia * spin)))
     }
 
     /// Returns the linear momentum in kg m/s and the angular momentum about the origin in kg m^2/s,

@@ -14,6 +14,9 @@ pub struct Differences {
     pub displacement: Vec<f64>,
     /// Length of the step in s.
     pub step: f64,
+    /// Dissipation a of its formula.
+    #[serde(default = "crate::one_leg::of_games")]
+    pub dissipation: f64,
     /// Linear momentum in kg m/s and angular momentum in kg m^2/s that this and earlier steps took
     /// and that are still to be restored (`system/angular.rs`).
     pub owed: [f64; 6],
@@ -41,6 +44,7 @@ impl Differences {
         self.velocity.clone_from(&other.velocity);
         self.displacement.clone_from(&other.displacement);
         self.step = other.step;
+        self.dissipation = other.dissipation;
         self.owed = other.owed;
         self.revision = other.revision;
     }

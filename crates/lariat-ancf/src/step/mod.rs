@@ -66,6 +66,7 @@ impl Cable {
         };
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
+        self.diagnostics.unresolved_steps += counts.unresolved;
         match outcome {
             Ok(()) => {
                 self.diagnostics.host_steps += 1;

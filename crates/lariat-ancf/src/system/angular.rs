@@ -44,7 +44,7 @@
 //! What was tried, and what it gave: docs/decisions/elements.md.
 
 use super::{Equations, System, dot, solve_semidefinite};
-use crate::scales::integrate::ALPHA;
+use crate::one_leg::OneLeg;
 use crate::scales::system::LARGEST_SHARE;
 use crate::state::State;
 use crate::system::step_vectors::{Before, StepVectors};
@@ -195,7 +195,7 @@ impl Momenta {
         &self,
         owed: &mut [f64; 6],
         ([momentum, before, centre], [force, moment]): (Before, [Vector3<f64>; 2]),
-        balance: &mut Balance,
+        (leg, balance): (OneLeg, &mut Balance),
     ) -> (Turn, Before) {
         let [own, all] = self.angular();
         let middle = 0.5 * (centre + self.centre());
@@ -215,7 +215,7 @@ impl Momenta {
         // kinetic energy beside the rigid motion, and its velocities times all momenta
         let energy = (0.5 * (self.squares[0] - velocity.dot(&p) - spin.dot(&own))).max(0.0);
         let product = self.squares[1] - velocity.dot(&with_feed) - spin.dot(&all);
-        let taken = 0.5 * ALPHA * second.dot(&self.spin_of(&second));
+        let taken = 0.5 * leg.a * second.dot(&self.spin_of(&second));
         let wanted = turn.spin.dot(&(all + 0.5 * missing)) + turn.push.dot(&(with_feed + 0.5 * lost));
         let given = wanted.clamp(0.0, taken.min(balance.numerical).min(-balance.excess()).max(0.0));
         let most = LARGEST_SHARE * (product - LARGEST_SHARE * energy);

@@ -4,7 +4,6 @@ use super::{Equations, dot};
 use crate::contact::{BodyPath, ContactStep, Motion, When};
 use crate::effect::EffectWork;
 use crate::element::shape::combine;
-use crate::scales::integrate::ALPHA;
 use crate::state::State;
 use crate::system::StepVectors;
 use crate::term::Balance;
@@ -38,9 +37,9 @@ impl Equations<'_> {
         (bodies, lost): (&[BodyPath], f64),
         f: impl FnOnce(&mut ContactStep, &Motion<'_>) -> T,
     ) -> T {
-        let StepVectors { contact, change, h, .. } = b;
+        let StepVectors { contact, change, h, leg, .. } = b;
         let (q, memory) = (&state.q[..], &state.memory.contacts[..]);
-        f(contact, &Motion { model: self.model, time: state.time, h: *h, q, change, memory, lost, bodies })
+        f(contact, &Motion { model: self.model, time: state.time, h: *h, leg: *leg, q, change, memory, lost, bodies })
     }
 
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.
@@ -83,7 +82,7 @@ impl Equations<'_> {
     /// Returns what impacts take of the energy in J of velocities and store in proportion to their
     /// share, and in proportion to its square.
     pub fn energy_of_impacts(&mut self, b: &mut StepVectors) -> [f64; 2] {
-        let held = 0.5 * (1.0 + ALPHA) * self.system.mass_square(&b.landed, &mut b.product);
-        [dot(&b.external, &b.product) + ALPHA * dot(&b.velocity_change, &b.product), held]
+        let held = 0.5 * (1.0 + b.leg.a) * self.system.mass_square(&b.landed, &mut b.product);
+        [dot(&b.external, &b.product) + b.leg.a * dot(&b.velocity_change, &b.product), held]
     }
 }

@@ -8,7 +8,6 @@ use super::{Equations, System};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::integrate::discrete_gradient::sum_of_forces;
-use crate::scales::integrate::{ALPHA, BETA};
 use crate::state::State;
 use crate::support::{SlopeSupport, Support};
 use crate::system::StepVectors;
@@ -43,7 +42,6 @@ impl Equations<'_> {
     pub fn begin_host_step(&self, state: &mut State) {
         let memory = &mut state.memory;
         memory.valid = false;
-        memory.step = 0.0;
         if memory.differences.is_empty() || memory.differences.revision != memory.revision {
             self.prescribe(state.time, &mut state.q, &mut state.v);
         }
@@ -62,7 +60,7 @@ impl Equations<'_> {
     pub fn prescribe_change(&self, state: &State, b: &mut StepVectors) {
         for (i, end) in self.prescribed_at(state.time + b.h) {
             b.change[i] = end - state.q[i];
-            b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
+            b.velocity_change[i] = (b.change[i] / b.h - state.v[i] + b.leg.a * b.velocity_before[i]) / b.leg.b;
         }
     }
 
@@ -110,9 +108,17 @@ impl Equations<'_> {
         let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
         let count = elements.count() as u64;
         let near = !(b.contact.is_empty() && b.pair_impulses.is_empty());
-        let StepVectors { h, change, change_before, kept, linearised, rhs, .. } = b;
-        let step =
-            CoordinateStep { start: &state.q, change, before: change_before, kept: *kept, linearised, h: *h, near };
+        let StepVectors { h, leg, change, change_before, kept, linearised, rhs, .. } = b;
+        let step = CoordinateStep {
+            start: &state.q,
+            change,
+            before: change_before,
+            kept: *kept,
+            linearised,
+            h: *h,
+            leg: *leg,
+            near,
+        };
         rhs.fill(0.0);
         if elements.bends() {
             diagnostics.bending_evaluations += count;
@@ -156,7 +162,7 @@ impl Equations<'_> {
         let (external, force) = (&mut b.external[..], &mut b.product[..]);
         external.fill(0.0);
         if at_points {
-            let input = StepInput { time, middle, velocity, middle_before, velocity_before, h: b.h };
+            let input = StepInput { time, middle, velocity, middle_before, velocity_before, h: b.h, leg: b.leg };
             let mut to = if matrix { Some(&mut system.step.matrix) } else { None };
             let counts = (count, &mut diagnostics.effects);
             forces.at_points.add_over_step(level, input, (external, force), to.as_deref_mut(), work, counts);
@@ -198,7 +204,7 @@ impl Equations<'_> {
         }
         self.balance_motors(state, b, &mut balance);
         let system = &*self.system;
-        let StepVectors { h, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
+        let StepVectors { h, leg, velocity_before, velocity_change, change, rhs, external, product, .. } = b;
         for (node, support) in &self.model.supports {
             if support.position.is_some() {
                 balance.impulse += sum_of_forces(&rhs[6 * node..6 * node + 6]);
@@ -211,7 +217,7 @@ impl Equations<'_> {
         for i in 0..external.len() {
             external[i] = velocity_change[i] - velocity_before[i];
         }
-        balance.numerical += 0.5 * ALPHA * system.mass_square(external, product);
+        balance.numerical += 0.5 * leg.a * system.mass_square(external, product);
         let kinetic = 0.5 * system.mass_square(&state.v, product);
         balance.held += kinetic + loss.strain + system.scales.weight_energy;
         balance.weight = system.scales.weight_energy;
@@ -225,7 +231,7 @@ impl Equations<'_> {
         for i in 0..b.rhs.len() {
             let increment = share * b.rhs[i];
             b.velocity_change[i] += increment;
-            b.change[i] += b.h * BETA * increment;
+            b.change[i] += b.h * b.leg.b * increment;
         }
     }
 
@@ -251,6 +257,7 @@ impl Equations<'_> {
         memory.differences.velocity.iter_mut().zip(&b.landed).for_each(|(change, landed)| *change -= landed);
         memory.differences.displacement.clone_from(&b.change);
         memory.differences.step = b.h;
+        memory.differences.dissipation = b.leg.a;
         memory.differences.revision = memory.revision;
         let meter = &mut self.system.meter;
         meter.work += meter.work_of_step;

@@ -6,7 +6,6 @@ use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::{self, combine};
 use crate::linalg::BlockTridiagonal;
 use crate::model::Model;
-use crate::scales::integrate::BETA;
 use nalgebra::DMatrix;
 
 /// Where they are: element and shape functions, in their order.
@@ -78,7 +77,7 @@ impl PointPotentials {
             let (gradient, tangent) = over_step(potential, &start, &change);
             add_force(&mut b.external, e, shape, &-gradient);
             if let Some(matrix) = matrix.as_deref_mut() {
-                add_tangent(matrix, e, shape, &(tangent * (BETA * b.h * b.h)));
+                add_tangent(matrix, e, shape, &(tangent * (b.leg.b * b.h * b.h)));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The buffers of a step of the [discrete gradient](crate::integrate::discrete_gradient).
 
 use crate::contact::ContactStep;
+use crate::one_leg::OneLeg;
 use crate::state::State;
 use nalgebra::Vector3;
 
@@ -13,6 +14,8 @@ pub(crate) type Before = [Vector3<f64>; 3];
 pub(crate) struct StepVectors {
     /// Length of the step in s.
     pub h: f64,
+    /// Formula of the step.
+    pub leg: OneLeg,
     /// Change of velocities in the step before, O v.
     pub velocity_before: Vec<f64>,
     /// Change of coordinates in the step before.
@@ -56,16 +59,16 @@ pub(crate) struct StepVectors {
 }
 
 impl StepVectors {
-    /// Takes up the memory of `state` for a step of length `h` (s), and predicts its changes by a
-    /// constant acceleration.
+    /// Takes up the memory of `state` for a step of length `h` (s) with a formula, and
+    /// predicts its changes by a constant acceleration.
     ///
     /// After a longer step the changes are scaled down to the length of this one, which only loses
     /// energy of the store; after a shorter one they stay.
-    pub fn recall(&mut self, state: &State, h: f64) {
+    pub fn recall(&mut self, state: &State, h: f64, leg: OneLeg) {
         let differences = &state.memory.differences;
         let size = state.q.len();
-        self.h = h;
-        self.kept = if differences.step > h { h / differences.step } else { 1.0 };
+        (self.h, self.leg) = (h, leg);
+        self.kept = leg.share_kept((differences.dissipation, differences.step), h);
         self.velocity_before.clear();
         self.velocity_before.extend(differences.velocity.iter().map(|x| self.kept * x));
         self.velocity_before.resize(size, 0.0);

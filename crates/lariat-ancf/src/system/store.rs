@@ -11,7 +11,7 @@
 
 use super::System;
 use super::lanes::discrete_gradient::CoordinateStep;
-use crate::scales::integrate::ALPHA;
+use crate::one_leg::OneLeg;
 use crate::state::State;
 
 impl System {
@@ -32,9 +32,10 @@ impl System {
             kept: 1.0,
             linearised: &[],
             h: 1.0,
+            leg: OneLeg::new(differences.dissipation),
             near: false,
         };
         let elastic = self.forces.elements.add_discrete_gradient(self.level, None, step, &mut buffer).numerical;
-        elastic + 0.5 * ALPHA * self.mass_square(&differences.velocity, &mut buffer)
+        elastic + 0.5 * differences.dissipation * self.mass_square(&differences.velocity, &mut buffer)
     }
 }

@@ -2,12 +2,15 @@
 
 use super::balance::Balance;
 use super::verdict::{Reason, Verdict};
+use crate::one_leg::OneLeg;
 
 /// The step that begins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepStart {
     /// Its length in s.
     pub h: f64,
+    /// Its formula.
+    pub leg: OneLeg,
     /// Whether it is part of a step that was divided.
     pub divided: bool,
     /// Whether it may be divided in turn.

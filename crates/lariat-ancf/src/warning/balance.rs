@@ -1,7 +1,7 @@
 //! Reading the energy balance of a cable. Equation: [`EnergyBalance`].
 
 use crate::cable::Cable;
-use crate::integrate::Method;
+use crate::integrate::OneStep;
 use crate::watch::{CableAccount, Last};
 
 pub use crate::scales::term::TOLERANCE as ROUNDING;
@@ -52,7 +52,7 @@ impl CableAccount {
         let now = Last { revision: cable.revision, terms, strain: terms.strain, gravity: terms.gravity };
         let Some(last) = self.last.replace(now).filter(|last| last.revision == now.revision) else { return };
         self.last = Some(Last { strain: last.strain, gravity: last.gravity, ..now });
-        let by_law = cable.integrator().method == Method::DiscreteGradient && !cable.has_reel();
+        let by_law = cable.integrator().method.uses_discrete_gradients() && !cable.has_reel();
         let change = if by_law { terms.by_law - last.terms.by_law } else { terms.sum() - last.terms.sum() };
         self.balance.dissipated_j += terms.dissipated - last.terms.dissipated;
         self.balance.work_j += terms.work - last.terms.work;

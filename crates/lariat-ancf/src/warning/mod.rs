@@ -138,7 +138,7 @@ pub enum Warning {
     /// A reel whose rate comes near the speed of waves.
     #[error(
         "cable {cable:?}: at {time_s:.3} s its reel turns with {ratio:.2} of the speed of transverse waves: above 0.3 waves of the mesh may \
-         grow; give the cable damping, or a slower rate"
+         grow, and its frequencies are wrong then; give the cable damping in bending, or a slower rate"
     )]
     FastReel {
         /// Name of the cable.
@@ -189,6 +189,18 @@ pub enum Warning {
         /// Name of the cable.
         cable: String,
         /// Number of steps in which it did.
+        steps: u64,
+    },
+    /// The tolerance of the discrete gradient asked for steps shorter than a 64th of the host step,
+    /// which were not taken.
+    #[error(
+        "cable {cable:?}: {steps} steps of a 64th of the host step had an estimated error above the tolerance: the motion is not resolved to it; try shorter host \
+         steps, more damping, or a larger tolerance"
+    )]
+    NotResolved {
+        /// Name of the cable.
+        cable: String,
+        /// Number of such steps.
         steps: u64,
     },
     /// It is deep in what it touches, for longer than an impact takes, or at rest.

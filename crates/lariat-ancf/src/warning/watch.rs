@@ -16,7 +16,7 @@ use crate::watch::{Contacts, Estimate, Verdict, Watch};
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
-const LAWS: [(Law, bool); 13] = [
+const LAWS: [(Law, bool); 14] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -30,6 +30,7 @@ const LAWS: [(Law, bool); 13] = [
     (|watch, cable, _| watch.contacts.coarse(cable), true),
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
+    (|_, cable, _| unresolved(cable), true),
 ];
 
 /// Layout: the bit of warnings about sizes.
@@ -63,7 +64,9 @@ impl Watch {
             self.displacement = self.displacement.max(motion.displacement);
         }
         let ratio = cable.reels().map(|reel| reel.speed_ratio).fold(0.0, f64::max);
-        if ratio.is_finite() && ratio > self.reel.0 && cable.effects().damping.is_none() {
+        // damping along the cable does not hinder waves across it
+        let damped = cable.effects().damping.is_some_and(|damping| damping.bending > 0.0);
+        if ratio.is_finite() && ratio > self.reel.0 && !damped {
             self.reel = (ratio, cable.time());
         }
         let (share, tension, stiffness) = cable.largest_strain();
@@ -171,6 +174,12 @@ impl Watch {
         let steps = cable.diagnostics().crossed_steps;
         (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
     }
+}
+
+/// Whether steps were accepted that the tolerance refuses.
+fn unresolved(cable: &Cable) -> Option<Warning> {
+    let steps = cable.diagnostics().unresolved_steps;
+    (steps > 0).then(|| Warning::NotResolved { cable: cable.name().to_string(), steps })
 }
 
 /// Whether the load may have exceeded its limit between two integration steps.

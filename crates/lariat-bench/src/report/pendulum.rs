@@ -37,7 +37,8 @@ const INDEPENDENT: &str = include_str!("../../../../assets/reference/pendulum_G1
 
 /// Returns whether a method is run with a tolerance here; otherwise with substeps.
 pub fn adaptive(method: Method) -> bool {
-    method.properties().estimate_order.is_some()
+    // the discrete gradient is measured at fixed steps, as games take them
+    method.properties().estimate_order.is_some() && method != Method::DiscreteGradient
 }
 
 /// Returns the step control of a method: a tolerance, substeps, or a share of its stability limit.

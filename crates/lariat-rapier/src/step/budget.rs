@@ -11,8 +11,7 @@
 //! bounds, are not in it. By how much it can be exceeded: [`WorkLimit`].
 
 use crate::scales::step::CHEAPEST_STEP;
-use lariat_ancf::integrate::IntegratorRef;
-use lariat_ancf::integrate::WorkLimit;
+use lariat_ancf::integrate::{IntegratorRef, OneStep, WorkLimit};
 use lariat_ancf::{Error, Integrator, Method, StepControl, StepFailure};
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
@@ -70,7 +69,7 @@ pub(crate) fn step_within(
 ) -> Result<(), Error> {
     match step(IntegratorRef::from(integrator).within(limit)) {
         Err(Error::StepFailed { failure: StepFailure::WorkLimit, .. })
-            if integrator.method != Method::DiscreteGradient =>
+            if !integrator.method.uses_discrete_gradients() =>
         {
             step(IntegratorRef::from(&CHEAPEST).within(limit))
         }

@@ -33,8 +33,8 @@ use crate::convert::vector;
 use crate::islands::{Island, Member};
 use crate::mechanism::velocity_of;
 use crate::step::prediction::Prediction;
-use lariat_ancf::Method;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::integrate::OneStep;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::warning::IslandChange;
 use lariat_ancf::warning::balance::{CableTerms, Sizes, weight_and_stiffness};
@@ -77,7 +77,7 @@ pub(crate) fn begin(contents: &Contents, island: &Island, prediction: &mut Predi
 
 /// Returns whether the island has the energy law of the discrete gradient.
 fn is_by_law(prediction: &Prediction) -> bool {
-    prediction.integrator.is_some_and(|integrator| integrator.method == Method::DiscreteGradient)
+    prediction.integrator.is_some_and(|integrator| integrator.method.uses_discrete_gradients())
 }
 
 /// Adds what integration made of an island in a Rapier step of `h` (s) to the balance of its first cable. Its cables are as predicted.

@@ -34,6 +34,7 @@ use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::substepping;
 use ::nalgebra::Vector6;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::integrate::OneStep;
 use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
@@ -249,9 +250,10 @@ fn parts(integrator: &Integrator, h: f64) -> u32 {
     }
 }
 
-/// Returns whether an integrator controls its error.
+/// Returns whether an integrator controls its error and does not keep an energy law at any step.
 fn is_controlled(integrator: &Integrator) -> bool {
-    matches!(integrator.control, StepControl::Tolerance(_) | StepControl::ToleranceOf(..))
+    let is_tolerance = matches!(integrator.control, StepControl::Tolerance(_) | StepControl::ToleranceOf(..));
+    is_tolerance && !integrator.method.uses_discrete_gradients()
 }
 
 /// Returns the integrator for one of `count` equal parts of the step that `integrator` is meant

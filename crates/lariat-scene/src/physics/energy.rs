@@ -4,7 +4,8 @@ use super::{Physics, RAPIER_STEPS};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
-use lariat_ancf::{Method, Vector3};
+use lariat_ancf::Vector3;
+use lariat_ancf::integrate::OneStep;
 use lariat_rapier::CableHandle;
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
@@ -104,7 +105,7 @@ impl Physics {
 
     /// Returns whether a cable steps by the discrete gradient.
     fn has_law(&self, cable: CableHandle) -> bool {
-        self.cables.get(cable).is_ok_and(|cable| cable.integrator().method == Method::DiscreteGradient)
+        self.cables.get(cable).is_ok_and(|cable| cable.integrator().method.uses_discrete_gradients())
     }
 
     /// Returns the weight of the dynamic bodies in N.

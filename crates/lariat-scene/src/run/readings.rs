@@ -6,7 +6,8 @@ use crate::error::Error;
 use crate::physics::BodyState;
 use crate::scene::AttachmentScene;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{Cable, Energy, Method, Momentum, Reaction, ReasonCounts, Vector3};
+use lariat_ancf::integrate::OneStep;
+use lariat_ancf::{Cable, Energy, Momentum, Reaction, ReasonCounts, Vector3};
 use std::collections::BTreeMap;
 
 impl World {
@@ -102,7 +103,7 @@ impl World {
             all_by_law &= !cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
             by_law += law.residual - law.numerical - law.rescaled;
-            all_by_law &= cable.integrator().method == Method::DiscreteGradient;
+            all_by_law &= cable.integrator().method.uses_discrete_gradients();
         }
         if let Some(physics) = &self.physics {
             terms.rounding = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;

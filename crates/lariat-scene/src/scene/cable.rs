@@ -52,7 +52,8 @@ table! {
         /// `true` runs a rule with zero-energy modes.
         allow_rank_deficient: bool = false, Kind::Flag;
         /// Time integrator and step control. A cable with `contact`, a reel with `max_force` or a drum, or a sheave needs the method
-        /// `"discrete-gradient"`, and has `{ fidelity = "game" }` by default.
+        /// `"discrete-gradient"`, and has `{ fidelity = "game" }` by default; with `{ fidelity =
+        /// "engineering" }` it is stepped by that method to 1e-5 m per host step.
         integrator: IntegratorTable = { fidelity = "engineering" }, Kind::Table(&IntegratorTable::TABLE);
         /// Velocity of the start point.
         velocity: Vector3<f64> = [0.0, 0.0, 0.0], VECTOR, "m/s";

@@ -2,7 +2,8 @@
 
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Choose, Kind, MANY, POSITIVE, SHARE, parse_as, table};
+use crate::schema::{Choose, DISSIPATION, Kind, MANY, POSITIVE, SHARE, parse_as, table};
+use lariat_ancf::integrate::OneStep;
 use lariat_ancf::{ErrorNorm, Fidelity, Integrator, Method, StepControl};
 
 /// Least tolerance over the length of the cable: some tens of roundings of a position.
@@ -23,6 +24,9 @@ table! {
         max_step: Option<f64> = (), Kind::Number(POSITIVE), "s";
         /// Share of the stability limit, for an explicit method.
         stable: Option<f64> = (), Kind::Number(SHARE);
+        /// How much the method `"discrete-gradient"` damps: a motion of angular frequency w loses
+        /// the share a (h w)^3/2 of its amplitude per radian in steps of h; 0 to 1/16.
+        dissipation: Option<f64> = ("1/16; 1/256 with `tolerance`"), Kind::Number(DISSIPATION);
         /// Choice of accuracy against time.
         fidelity: Option<Fidelity> = (), Kind::Choice(|| Fidelity::ALL.map(Fidelity::name).to_vec());
     }
@@ -33,6 +37,9 @@ table! {
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> Result<Fidelity, Error> {
     if let Some(fidelity) = row.fidelity {
         return match (row.method, row.norm) {
+            (None, None) if row.dissipation.is_some() => {
+                Err(doc.error(at, Problem::TooManyGiven(vec!["dissipation", "fidelity"])))
+            }
             (None, None) => Ok(fidelity),
             (Some(_), _) => Err(doc.error(at, Problem::TooManyGiven(vec!["method", "fidelity"]))),
             (None, Some(_)) => Err(doc.error(at, Problem::TooManyGiven(vec!["norm", "fidelity"]))),
@@ -60,6 +67,17 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
         Some(method) => method,
         None if key == "tolerance" => Integrator::default().method,
         None => return Err(doc.missing(&at.key("method"))),
+    };
+    let method = match (method, row.dissipation, control) {
+        (Method::DiscreteGradient, Some(dissipation), _) => Method::DiscreteGradientWith { dissipation },
+        (Method::DiscreteGradient, None, StepControl::Tolerance(_) | StepControl::ToleranceOf(..)) => {
+            Integrator::COUPLED.method
+        }
+        (_, Some(_), _) => {
+            let problem = Problem::Conflict(format!("{method} has none"));
+            return Err(doc.error_accepting(&at.key("dissipation"), problem, "the method \"discrete-gradient\""));
+        }
+        (method, None, _) => method,
     };
     let checked = Integrator { method, control }.checked();
     checked.map(Fidelity::from).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
@@ -92,13 +110,14 @@ pub(super) fn by_discrete_gradient(
     what: &str,
 ) -> Result<Fidelity, Error> {
     let method = written.integrator(f64::INFINITY).method;
-    match method {
-        Method::DiscreteGradient => Ok(written),
+    match written {
+        _ if method.uses_discrete_gradients() => Ok(written),
         _ if !doc.contains(at) => Ok(Fidelity::Game),
+        Fidelity::Engineering => Ok(Integrator::COUPLED.into()),
         _ => Err(doc.error_accepting(
             at,
             Problem::Conflict(format!("{method} cannot step {what}")),
-            "{ fidelity = \"game\" }, or the method \"discrete-gradient\" with substeps or max_step",
+            "{ fidelity = \"game\" } or \"engineering\", or the method \"discrete-gradient\" with tolerance, substeps or max_step",
         )),
     }
 }

@@ -15,7 +15,7 @@ mod range;
 #[macro_use]
 mod table;
 
-pub use range::{ANY, NOT_NEGATIVE, POSITIVE, Range, SHARE, UNIT};
+pub use range::{ANY, DISSIPATION, NOT_NEGATIVE, POSITIVE, Range, SHARE, UNIT};
 pub(crate) use table::{choice, table};
 
 /// A table of a scene file.

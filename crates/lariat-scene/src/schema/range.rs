@@ -20,6 +20,9 @@ pub const NOT_NEGATIVE: Range = Range { text: ">= 0", inside: |x| x >= 0.0, sing
 pub const UNIT: Range = Range { text: "from 0 to 1", inside: |x| (0.0..=1.0).contains(&x), single: false };
 /// Shares of a whole that are not zero.
 pub const SHARE: Range = Range { text: "in (0, 1]", inside: |x| x > 0.0 && x <= 1.0, single: false };
+/// What the discrete gradient may dissipate.
+pub const DISSIPATION: Range =
+    Range { text: "from 0 to 0.0625", inside: |x| (0.0..=0.0625).contains(&x), single: false };
 
 impl Range {
     /// Returns the same range for numbers that must stay in it when they are rounded to single precision.

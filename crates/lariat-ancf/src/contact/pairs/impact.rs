@@ -29,7 +29,7 @@ impl PairStep {
             if pair.point.may_leave() {
                 let beside = pair.rate(&velocity);
                 let normal = pair.point.linear.tangents.across;
-                energy += pair.point.find_impact(normal, [beside, Vector3::zeros()], 0.0, (self.h, reduced));
+                energy += pair.point.find_impact(normal, [beside, Vector3::zeros()], 0.0, (self.h, self.leg, reduced));
             }
         }
         energy

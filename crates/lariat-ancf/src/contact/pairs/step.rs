@@ -10,8 +10,8 @@ use super::search::{Candidate, Search};
 use super::strands::Strands;
 use crate::element::shape::{self, combine};
 use crate::obstacle::Patch;
+use crate::one_leg::OneLeg;
 use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, NEAR_PAIR, PAID};
-use crate::scales::integrate::BETA;
 use crate::scales::island::MAX_SEARCHES;
 use crate::state::ContactMemory;
 use crate::state::PairMemory;
@@ -28,6 +28,7 @@ pub(crate) struct PairStep {
     taken: Vec<Vec<bool>>,
     /// Length of the step in s.
     pub(super) h: f64,
+    pub(super) leg: OneLeg,
     /// Energy in J that the contacts store at the beginning.
     before: f64,
     /// Strands that go through each other in the step.
@@ -59,9 +60,9 @@ impl PairStep {
     }
 
     /// Begins a step of length `h` (s); contacts close offsets if `close`.
-    pub fn begin(&mut self, h: f64, close: bool, strands: &Strands<'_, '_>) {
+    pub fn begin(&mut self, (h, leg): (f64, OneLeg), close: bool, strands: &Strands<'_, '_>) {
         self.points.clear();
-        (self.h, self.before, self.searches, self.close) = (h, 0.0, 0, close);
+        (self.h, self.leg, self.before, self.searches, self.close) = (h, leg, 0.0, 0, close);
         self.on = (0..strands.count).any(|c| strands.may_touch(c));
         self.columns.clear();
         if !self.on {
@@ -201,7 +202,7 @@ impl PairStep {
         for pair in &mut self.points {
             pair.linearise(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
             let tangents = pair.point.linear.tangents;
-            let tangent = (tangents.normal + tangents.friction) * (BETA * self.h * self.h);
+            let tangent = (tangents.normal + tangents.friction) * (self.leg.b * self.h * self.h);
             let eigen = tangent.symmetric_eigen();
             let most = eigen.eigenvalues.amax();
             let mut out =

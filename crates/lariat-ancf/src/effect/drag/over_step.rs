@@ -16,7 +16,6 @@ use super::law::Split;
 use crate::effect::acts::StepInput;
 use crate::element::gram::dot;
 use crate::linalg::BlockTridiagonal;
-use crate::scales::integrate::BETA;
 use crate::simd::{LANES, load};
 use fearless_simd::{Simd, SimdBase};
 
@@ -56,7 +55,7 @@ impl DragTable {
                 }
                 if matrix.is_some() {
                     for (block, (k, m)) in blocks.iter_mut().zip(PAIRS) {
-                        let hh = BETA * step.h * point.position[k] * point.position[m];
+                        let hh = step.leg.b * step.h * point.position[k] * point.position[m];
                         for r in 0..3 {
                             for c in 0..3 {
                                 block[r][c] += drag[r][c] * hh;

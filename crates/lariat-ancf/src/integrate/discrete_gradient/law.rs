@@ -39,6 +39,16 @@ pub(crate) trait DiscreteGradientSystem {
     /// (0 to 1).
     fn rescale(&mut self, balance: &mut Balance, largest_share: f64) -> bool;
 
+    /// Returns the estimated error of the step in m; 0 where it is not known.
+    fn error(&mut self) -> f64;
+
+    /// Returns the length in s that error control proposed for the next step, or 0.
+    fn proposal(&self) -> f64;
+
+    /// Remembers the length in s that error control proposes for the next step; 0 if errors are not
+    /// controlled.
+    fn propose(&mut self, step: f64);
+
     /// Makes the end of the step the present state.
     fn accept(&mut self, balance: Balance);
 

@@ -52,6 +52,7 @@ impl IslandStep<'_, '_> {
         if self.cables.iter().any(|cable| cable.step_buffers.contact.is_held()) {
             return balance;
         }
+        let leg = self.cables[0].step_buffers.leg;
         let (mut momenta, mut outside) = (Momenta::default(), [nalgebra::Vector3::zeros(); 2]);
         let mut add = |own: [nalgebra::Vector3<f64>; 2]| (0..2).for_each(|i| outside[i] += own[i]);
         for cable in self.cables.iter_mut() {
@@ -65,7 +66,7 @@ impl IslandStep<'_, '_> {
         }
         self.momenta(&mut momenta);
         let owed = &mut self.cables[0].snapshot.state.memory.differences.owed;
-        let (turn, after) = momenta.restore(owed, (before, outside), &mut balance);
+        let (turn, after) = momenta.restore(owed, (before, outside), (leg, &mut balance));
         self.cables[0].step_buffers.after = Some(after);
         self.cables.iter_mut().for_each(|cable| turn.turn_cable(&mut cable.snapshot.state));
         self.buffers.bodies.iter_mut().for_each(|body| body.turn(&turn));

@@ -10,13 +10,13 @@ pub(super) struct Bodies;
 
 impl StepTerm<IslandStep<'_, '_>> for Bodies {
     fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
-        island.buffers.bodies.iter_mut().for_each(|body| body.predict(step.h));
+        island.buffers.bodies.iter_mut().for_each(|body| body.predict(step.h, step.leg));
     }
 
     fn balance(island: &mut IslandStep<'_, '_>, balance: &mut Balance) {
         let StepBuffers { bodies, coupled, rows, .. } = &mut *island.buffers;
         complete_rows(bodies, coupled, rows);
-        add_coupled_energies(bodies, coupled, balance);
+        add_coupled_energies(bodies, coupled, island.cables[0].step_buffers.leg, balance);
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.add_balance(row, balance);
         }

@@ -25,13 +25,15 @@
 //!
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
+use super::error::factors;
 use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
 use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
+use crate::one_leg::OneLeg;
 use crate::scales::LEAST_HEIGHT;
-use crate::scales::integrate::{ALPHA, BETA};
+use crate::scales::integrate::ALPHA;
 use crate::system::angular::{Momenta, Turn};
 use crate::term::{Account, Balance};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -51,9 +53,10 @@ pub(in crate::island) struct BodyStep {
     pub rotation: UnitQuaternion<f64>,
     /// u at the present state.
     pub velocity: Vector6<f64>,
-    /// Change of u in the last step, and its length in s.
-    last: (Vector6<f64>, f64),
+    /// Change of u in the last step, with its dissipation and its length in s.
+    last: (Vector6<f64>, (f64, f64)),
     h: f64,
+    leg: OneLeg,
     /// Whether its state at the beginning of the host step was not that of the last one.
     moved: bool,
     /// O u.
@@ -93,8 +96,8 @@ impl BodyStep {
         }
         let spin = body.rotation.inverse() * body.angular_velocity;
         let last = match body.memory.as_ref().and_then(|memory| memory.differences.as_ref()) {
-            Some(differences) => (stack(differences.change), differences.step),
-            None => (Vector6::zeros(), 0.0),
+            Some(differences) => (stack(differences.change), (differences.dissipation, differences.step)),
+            None => (Vector6::zeros(), (ALPHA, 0.0)),
         };
         BodyStep {
             mass: body.mass,
@@ -107,9 +110,10 @@ impl BodyStep {
             position: body.position,
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
-            moved: last.1 == 0.0,
+            moved: last.1.1 == 0.0,
             last,
             h: 0.0,
+            leg: OneLeg::default(),
             before: Vector6::zeros(),
             change: Vector6::zeros(),
             mean: [Vector3::zeros(); 2],
@@ -124,11 +128,11 @@ impl BodyStep {
         self.velocity = stack([*velocity, self.rotation.inverse() * spin]);
     }
 
-    /// Begins a step of length `h` (s) at constant acceleration.
-    pub fn predict(&mut self, h: f64) {
-        self.h = h;
-        let (last, step) = self.last;
-        let factor = if step > h { h / step } else { 1.0 };
+    /// Begins a step of length `h` (s) with a formula, at constant acceleration.
+    pub fn predict(&mut self, h: f64, leg: OneLeg) {
+        (self.h, self.leg) = (h, leg);
+        let (last, before) = self.last;
+        let factor = leg.share_kept(before, h);
         let [mut v, spin] = split(&(last * factor));
         let mut turned = self.rotation * spin;
         for x in 0..3 {
@@ -154,7 +158,7 @@ impl BodyStep {
 
     /// Computes means and end of the iterate.
     fn update(&mut self) {
-        let [v, spin] = split(&(self.velocity + BETA * self.change - ALPHA * self.before));
+        let [v, spin] = split(&(self.velocity + self.leg.b * self.change - self.leg.a * self.before));
         let mut spin = self.rotation * spin;
         if self.free[3..] == [false; 3] {
             // a driven rotation by exactly h w
@@ -214,6 +218,24 @@ impl BodyStep {
         self.change - self.before
     }
 
+    /// Returns the estimated error in m of a point of the body in a step of smooth motion; 0 where
+    /// it is not known, and of one that cannot move.
+    pub fn error(&self, anchor: Vector3<f64>) -> f64 {
+        let (dissipation, before) = self.last.1;
+        let kept = self.leg.share_kept((dissipation, before), self.h);
+        if before == 0.0 || kept == 0.0 || self.is_driven() {
+            return 0.0;
+        }
+        let [of_change, of_before] = factors(self.leg.a, self.h / before, kept);
+        let [v, spin] = split(&(self.change * of_change - self.before * of_before));
+        self.h * (v + self.rotation * spin.cross(&anchor)).norm()
+    }
+
+    /// Returns whether impacts changed its velocity in the step.
+    pub fn is_hit(&self) -> bool {
+        self.taken != Vector6::zeros() || self.landed != Vector6::zeros()
+    }
+
     /// Returns u at the end of the step.
     pub fn final_velocity(&self) -> Vector6<f64> {
         self.velocity + self.change
@@ -235,7 +257,7 @@ impl BodyStep {
         total.imbalance += sum_of_forces(row);
         total.impulse += self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm();
         let (second, start) = (self.second_difference(), self.velocity);
-        total.numerical += 0.5 * ALPHA * second.dot(&(self.matrix * second));
+        total.numerical += 0.5 * self.leg.a * second.dot(&(self.matrix * second));
         total.to(Account::Loads).work += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
         total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * LEAST_HEIGHT;
     }
@@ -263,7 +285,7 @@ impl BodyStep {
 
     /// Returns u at the end of the step, and the share of D u that the store holds.
     pub fn carried_velocity(&self) -> Vector6<f64> {
-        self.velocity + self.change - self.taken + ALPHA * self.change
+        self.velocity + self.change - self.taken + self.leg.a * self.change
     }
 
     /// Sets what impacts take from its velocities, the rotation in world axes.
@@ -332,7 +354,7 @@ impl BodyStep {
         }
         self.rotation = self.end;
         self.velocity = stack([v, self.rotation.inverse() * turned]);
-        self.last = (self.change - self.landed, self.h);
+        self.last = (self.change - self.landed, (self.leg.a, self.h));
     }
 
     /// Adds its momenta at the present state.
@@ -382,7 +404,8 @@ impl BodyStep {
     pub fn differences(&self) -> BodyDifferences {
         BodyDifferences {
             change: split(&self.last.0),
-            step: self.last.1,
+            step: self.last.1.1,
+            dissipation: self.last.1.0,
             velocity: [split(&self.velocity)[0], self.spin()],
             rotation: self.rotation,
         }

@@ -17,7 +17,7 @@ impl StepTerm<IslandStep<'_, '_>> for Cables {
     fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
         for cable in island.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
-            buffers.recall(state, step.h);
+            buffers.recall(state, step.h, step.leg);
             equations.prescribe_change(state, buffers);
         }
     }

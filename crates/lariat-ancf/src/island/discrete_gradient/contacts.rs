@@ -28,7 +28,7 @@ impl StepTerm<IslandStep<'_, '_>> for Contacts {
             let tests = buffers.contact.take_tests();
             cable.diagnostics_mut().search_tests += tests;
         }
-        island.find_pairs(step.h, step.divisible);
+        island.find_pairs((step.h, step.leg), step.divisible);
     }
 
     fn evaluate(island: &mut IslandStep<'_, '_>) {

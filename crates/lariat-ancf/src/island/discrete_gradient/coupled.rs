@@ -7,7 +7,7 @@
 
 use super::body::BodyStep;
 use crate::island::CoupledInertia;
-use crate::scales::integrate::ALPHA;
+use crate::one_leg::OneLeg;
 use crate::term::Balance;
 use nalgebra::Vector6;
 
@@ -31,10 +31,10 @@ pub(super) fn coupled_product(
 }
 
 /// Adds the coupled inertia's part of what is dissipated by the method, and held when the step begins.
-pub(super) fn add_coupled_energies(bodies: &[BodyStep], coupled: &[CoupledInertia], total: &mut Balance) {
+pub(super) fn add_coupled_energies(bodies: &[BodyStep], coupled: &[CoupledInertia], leg: OneLeg, total: &mut Balance) {
     for c in coupled {
         let seconds = c.bodies.map(|i| bodies[i].second_difference());
-        total.numerical += ALPHA * seconds[0].dot(&(c.matrix * seconds[1]));
+        total.numerical += leg.a * seconds[0].dot(&(c.matrix * seconds[1]));
     }
     total.held += 0.5 * coupled_product(coupled, |i| bodies[i].velocity, |i| bodies[i].velocity);
 }

@@ -15,7 +15,6 @@
 use super::body::BodyStep;
 use crate::island::hold::{Hold, vector};
 use crate::island::layout::Layout;
-use crate::scales::integrate::{ALPHA, BETA};
 use crate::state::State;
 use crate::system::StepVectors;
 use nalgebra::{Matrix3, Vector3};
@@ -79,7 +78,7 @@ impl HoldStep {
         for x in 0..3 {
             let i = self.at + x;
             b.change[i] = change[x];
-            b.velocity_change[i] = (mean[x] - state.v[i] + ALPHA * b.velocity_before[i]) / BETA;
+            b.velocity_change[i] = (mean[x] - state.v[i] + b.leg.a * b.velocity_before[i]) / b.leg.b;
         }
     }
 

@@ -50,6 +50,7 @@ impl HostStep<'_, '_> {
             let diagnostics = cable.diagnostics_mut();
             diagnostics.steps += counts.steps;
             diagnostics.rejected_steps += counts.rejected;
+            diagnostics.unresolved_steps += counts.unresolved;
         }
         if let Err(failed) = outcome {
             let within = self.cables.iter().try_for_each(|cable| cable.check_reach_of_reels(dt));

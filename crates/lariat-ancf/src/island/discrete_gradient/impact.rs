@@ -5,7 +5,6 @@ use super::IslandStep;
 use super::coupled::coupled_product;
 use crate::contact::solves_again;
 use crate::element::shape::combine;
-use crate::scales::integrate::ALPHA;
 use crate::system::CableStep;
 use crate::system::StepVectors;
 use crate::term::{Account, Balance};
@@ -45,14 +44,15 @@ impl IslandStep<'_, '_> {
             let StepVectors { contact, landed, .. } = &*buffers;
             work += contact.work_of_impacts(|e, shape| combine(landed, e, shape));
         }
+        let a = self.cables[0].step_buffers.leg.a;
         let coupled = &self.buffers.coupled;
         let bodies = &self.buffers.bodies;
         for body in bodies {
             let momentum = body.momentum_of(&body.landed);
             taken += momentum.dot(&body.carried_velocity());
-            held += 0.5 * (1.0 + ALPHA) * momentum.dot(&body.landed);
+            held += 0.5 * (1.0 + a) * momentum.dot(&body.landed);
         }
-        held += 0.5 * (1.0 + ALPHA) * coupled_product(coupled, |i| bodies[i].landed, |i| bodies[i].landed);
+        held += 0.5 * (1.0 + a) * coupled_product(coupled, |i| bodies[i].landed, |i| bodies[i].landed);
         taken += coupled_product(coupled, |i| bodies[i].carried_velocity(), |i| bodies[i].landed);
         let share = share_of_impact(balance, [taken, held, work], gives);
         for cable in self.cables.iter_mut() {

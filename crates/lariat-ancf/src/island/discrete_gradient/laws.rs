@@ -137,8 +137,9 @@ impl IslandStep<'_, '_> {
         if unknowns.reels.is_empty() {
             return;
         }
-        let h = cables[0].step_buffers.h;
-        unknowns.solve(|c| &cables[c].system.feeds, |c| &cables[c].step_buffers.rhs, (rows, h));
+        let first = &cables[0].step_buffers;
+        let step = (first.h, first.leg);
+        unknowns.solve(|c| &cables[c].system.feeds, |c| &cables[c].step_buffers.rhs, (rows, step));
         unknowns.add_to_drums();
         for (i, &increment) in unknowns.increments.iter().enumerate() {
             if let Some(&(c, k)) = unknowns.reels.get(i) {

@@ -35,7 +35,8 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         if fresh {
             self.linearise_pairs();
             self.linearise()?;
-            self.factor_bodies(self.cables[0].step_buffers.h)?;
+            let first = &self.cables[0].step_buffers;
+            self.factor_bodies((first.h, first.leg))?;
             self.linearise_laws();
         }
         self.add_increment(share)?;
@@ -63,8 +64,22 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         rescale::rescale(self, balance, largest_share)
     }
 
+    fn error(&mut self) -> f64 {
+        self.error_of_step()
+    }
+
+    fn proposal(&self) -> f64 {
+        let proposals = self.cables.iter().map(|cable| cable.snapshot.state.memory.step);
+        proposals.fold(f64::INFINITY, f64::min)
+    }
+
+    fn propose(&mut self, step: f64) {
+        self.cables.iter_mut().for_each(|cable| cable.snapshot.state.memory.step = step);
+    }
+
     fn accept(&mut self, mut balance: Balance) {
         Terms::finish(self, &mut balance);
+        self.buffers.unsteady = self.has_impact();
         Terms::accept(self);
         let balance = self.restore_angular_momentum(balance);
         // the law is that of the whole: the first cable keeps it

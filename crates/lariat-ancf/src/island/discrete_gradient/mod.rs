@@ -21,6 +21,7 @@ mod body;
 mod cables;
 mod contacts;
 mod coupled;
+mod error;
 mod holds;
 mod host_step;
 mod impact;
@@ -72,6 +73,8 @@ pub(super) struct StepBuffers {
     pub may_touch: Option<Vec<CablePair>>,
     /// Rates of reels that are unknown, and sheaves.
     pub unknowns: Unknowns,
+    /// Whether velocities jumped at the end of the last step.
+    unsteady: bool,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
     pub deviations: Vec<[Vector3<f64>; 2]>,
 }
@@ -97,6 +100,7 @@ pub(super) struct IslandStep<'a, 'b> {
 impl StepBuffers {
     /// Begins a host step.
     pub fn begin(&mut self, layout: &Layout) {
+        self.unsteady = false;
         self.bodies.clear();
         self.bodies.extend(layout.bodies.iter().map(BodyStep::new));
         self.coupled.clear();

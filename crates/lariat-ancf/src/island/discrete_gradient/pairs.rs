@@ -4,6 +4,7 @@ use super::super::layout::Layout;
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::contact::{CablePair, ContactBalance, PairStep, Strand, Strands};
+use crate::one_leg::OneLeg;
 
 /// Calls `f` with the cables as they are.
 fn with_strands<T>(
@@ -45,9 +46,9 @@ impl IslandStep<'_, '_> {
         found
     }
 
-    /// Finds the contacts of a step of length `h` (s).
-    pub(super) fn find_pairs(&mut self, h: f64, close: bool) {
-        self.with_pairs(|pairs, strands| pairs.begin(h, close, strands));
+    /// Finds the contacts of a step of a length in s with a formula.
+    pub(super) fn find_pairs(&mut self, step: (f64, OneLeg), close: bool) {
+        self.with_pairs(|pairs, strands| pairs.begin(step, close, strands));
     }
 
     /// Makes them linear.

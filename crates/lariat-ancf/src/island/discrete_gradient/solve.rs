@@ -9,7 +9,7 @@ use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::contact::Border;
 use crate::effect::EffectWork;
 use crate::error::StepFailure;
-use crate::scales::integrate::BETA;
+use crate::one_leg::OneLeg;
 use crate::system::StepVectors;
 use crate::system::{CableStep, Equations, project_vector};
 use crate::term::StepTerm;
@@ -39,8 +39,8 @@ impl IslandStep<'_, '_> {
     }
 
     /// Factors the matrix of the border, bodies and forces of contacts, for steps of length `h`
-    /// (s).
-    pub(super) fn factor_bodies(&mut self, h: f64) -> Result<(), StepFailure> {
+    /// (s) with a formula.
+    pub(super) fn factor_bodies(&mut self, (h, leg): (f64, OneLeg)) -> Result<(), StepFailure> {
         let StepBuffers { bodies, coupled, cables: own, matrix, pairs, .. } = &mut *self.buffers;
         matrix.begin(bodies.len(), pairs.columns.len());
         for (i, body) in bodies.iter().enumerate() {
@@ -50,7 +50,7 @@ impl IslandStep<'_, '_> {
         coupled.iter().for_each(|coupled| matrix.add_coupled(&coupled.turned(coupled.bodies.map(rotation))));
         for (c, (cable, own)) in self.cables.iter().zip(own.iter()).enumerate() {
             for hold in &own.holds {
-                matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * BETA * h)));
+                matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * leg.b * h)));
             }
             matrix.add_cable(c, levers(own, cable.step_buffers.contact.borders(), bodies.len()));
         }

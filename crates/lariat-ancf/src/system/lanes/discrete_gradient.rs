@@ -30,7 +30,7 @@ use crate::element::gram::{Control, PAIR_WEIGHT, Six, contract, form, gradient, 
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramStep, Hessian, Load, Stiffness};
 use crate::element::step::{ElementStep, STRAIGHT, combined, product, scaled, shifted};
 use crate::linalg::Block;
-use crate::scales::integrate::{ALPHA, BETA};
+use crate::one_leg::OneLeg;
 use fearless_simd::Level;
 
 /// A step of the coordinates of a cable.
@@ -48,6 +48,8 @@ pub(crate) struct CoordinateStep<'a> {
     pub linearised: &'a [f64],
     /// Length of the step in s.
     pub h: f64,
+    /// Its formula.
+    pub leg: OneLeg,
     /// Whether contacts are near.
     pub near: bool,
 }
@@ -104,8 +106,8 @@ impl Elements {
 
     /// Returns the pairs of the axial rule and of the bending rule.
     #[inline(always)]
-    fn pairs<T: Real>(&self, stiffness: Stiffness<T>, s: &ElementStep<T>) -> [Six<T>; 2] {
-        let axial = self.table.gradient(&s.one_leg(ALPHA), stiffness.axial);
+    fn pairs<T: Real>(&self, stiffness: Stiffness<T>, s: &ElementStep<T>, leg: OneLeg) -> [Six<T>; 2] {
+        let axial = self.table.gradient(&s.one_leg(leg.a), stiffness.axial);
         let mut flexural = [stiffness.axial.splat(0.0); 6];
         self.bending.add_discrete_gradient([&s.start, &s.end], stiffness.bending, &mut flexural);
         [axial, flexural]
@@ -127,9 +129,9 @@ impl Elements {
         from: &L,
         step: &ElementStep<T>,
         stiffness: Stiffness<T>,
-        h: f64,
+        (h, leg): (f64, OneLeg),
     ) -> Control<T> {
-        self.element_force(effects, from, (step, stiffness, h)).0
+        self.element_force(effects, from, (step, stiffness, h, leg)).0
     }
 
     /// Returns h times the negative force on the control vectors, and h times numerical
@@ -139,20 +141,20 @@ impl Elements {
         &self,
         effects: Option<&ElementTables>,
         from: &L,
-        (s, stiffness, h): (&ElementStep<T>, Stiffness<T>, f64),
+        (s, stiffness, h, leg): (&ElementStep<T>, Stiffness<T>, f64, OneLeg),
     ) -> (Control<T>, [T; 3]) {
         let (zero, rate) = (stiffness.axial.splat(0.0), 1.0 / h);
-        let [axial, flexural] = self.pairs(stiffness, s);
+        let [axial, flexural] = self.pairs(stiffness, s, leg);
         let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero; 6] };
         let mut dissipated = zero;
         if let Some(effects) = effects {
             dissipated = effects.add_discrete_gradient(&self.gram_step(stiffness, s, h), from, &mut sum);
         }
         let mut force = gradient(&sum.n, &s.mean);
-        let mut numerical = self.axial_square(stiffness, &s.gram_second()) * (0.5 * ALPHA);
+        let mut numerical = self.axial_square(stiffness, &s.gram_second()) * (0.5 * leg.a);
         let mut strain = self.axial_square(stiffness, &over_straight(&s.start)) * 0.5;
         if self.bends() {
-            let of_bending = gradient(&numerical_bending(stiffness.bending), &s.second);
+            let of_bending = gradient(&numerical_bending(stiffness.bending, leg), &s.second);
             force = shifted(&force, &of_bending, 1.0);
             numerical = numerical + product(&of_bending, &s.second) * 0.5;
             strain = strain + stiffness.bending * form(&RHO, &s.start);
@@ -178,7 +180,8 @@ impl Elements {
         for first in (0..self.count).step_by(G::SIZE) {
             let group = groups.at(first);
             let (s, stiffness) = self.gather_step(group, step);
-            let (force, [numerical, dissipated, strain]) = self.element_force(effects, &group, (&s, stiffness, step.h));
+            let (force, [numerical, dissipated, strain]) =
+                self.element_force(effects, &group, (&s, stiffness, step.h, step.leg));
             group.add_force(self, &force, out);
             group.add_to(self, numerical, &mut losses[0]);
             group.add_to(self, dissipated, &mut losses[1]);
@@ -203,21 +206,21 @@ impl Elements {
         for first in (0..self.count).step_by(G::SIZE) {
             let group = groups.at(first);
             let (s, stiffness) = self.gather_step(group, step);
-            let [axial, flexural] = self.pairs(stiffness, &s);
+            let [axial, flexural] = self.pairs(stiffness, &s, step.leg);
             let zero = stiffness.axial.splat(0.0);
             let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero; 6] };
             if let Some(effects) = effects {
                 effects.add_discrete_gradient(&self.gram_step(stiffness, &s, step.h), &group, &mut sum);
             }
             let mut force = gradient(&sum.n, &s.mean);
-            let mut tangent = Hessian { geometric: [zero; 6], h: self.table.hessian(stiffness.axial * BETA) };
+            let mut tangent = Hessian { geometric: [zero; 6], h: self.table.hessian(stiffness.axial * step.leg.b) };
             let stress = self.mean_stress(group, effects, stiffness, step, &s);
             self.table.add_mean(stress * 0.5, &mut tangent.geometric);
             if self.bends() {
                 let mean = combined(&s.start, &s.gram_change, 0.5);
                 let mut unused = [zero; 6];
                 self.bending.add_hessian(&mean, stiffness.bending * 0.5, &mut unused, &mut tangent.h);
-                let numerical = numerical_bending(stiffness.bending);
+                let numerical = numerical_bending(stiffness.bending, step.leg);
                 tangent.geometric = combined(&combined(&tangent.geometric, &flexural, 0.5), &numerical, 1.0);
                 force = shifted(&force, &gradient(&numerical, &s.second), 1.0);
             }
@@ -230,7 +233,7 @@ impl Elements {
                 force = shifted(&force, &gradient(&sum.viscous, &s.change), 1.0 / step.h);
             }
             group.add_force(self, &force, out);
-            let implicit = BETA * step.h;
+            let implicit = step.leg.b * step.h;
             let geometric = scaled(&tangent.geometric, implicit);
             let mut h = tangent.h;
             for i in 0..21 {
@@ -272,7 +275,7 @@ impl Elements {
             let about = group.control(self, step.linearised);
             let mean = shifted(&shifted(&s.mean, &s.change, -0.5), &about, 0.5);
             let change = gram_rates(&mean, &s.change);
-            combined(&combined(&s.start, &change, BETA), &s.gram_before, -ALPHA)
+            combined(&combined(&s.start, &change, step.leg.b), &s.gram_before, -step.leg.a)
         };
         let square = form(&self.table.a, &g);
         let mut rest = stiffness.axial.splat(1.0);
@@ -285,8 +288,8 @@ impl Elements {
 
 /// Returns the pairs of the numerical dissipation of bending: those of rule T1 times a.
 #[inline(always)]
-fn numerical_bending<T: Real>(flexural: T) -> Six<T> {
-    let mut n = [flexural * ALPHA; 6];
+fn numerical_bending<T: Real>(flexural: T, leg: OneLeg) -> Six<T> {
+    let mut n = [flexural * leg.a; 6];
     for i in 0..6 {
         n[i] = n[i] * (PAIR_WEIGHT[i] * RHO[i]);
     }

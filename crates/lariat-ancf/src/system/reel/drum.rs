@@ -39,7 +39,7 @@
 
 use super::FeedElement;
 use crate::element::side::Side;
-use crate::scales::integrate::BETA;
+use crate::one_leg::OneLeg;
 use crate::term::{Account, Balance};
 use nalgebra::Vector3;
 
@@ -97,10 +97,10 @@ impl Winch {
     }
 
     /// Returns s.x: the increment of the acceleration by increments of the bodies over a step of
-    /// `h` (s).
-    pub(super) fn turned(&self, rows: &[f64], h: f64) -> f64 {
+    /// a length in s with a formula.
+    pub(super) fn turned(&self, rows: &[f64], (h, leg): (f64, OneLeg)) -> f64 {
         let along = |body: usize| (0..3).map(|x| self.arm[x] * rows[6 * body + 3 + x]).sum::<f64>();
-        2.0 * BETA / h * self.signs().map(|(body, sign)| sign * along(body)).sum::<f64>()
+        2.0 * leg.b / h * self.signs().map(|(body, sign)| sign * along(body)).sum::<f64>()
     }
 
     /// Adds to a balance by how much the iterate breaks the law.

@@ -40,8 +40,8 @@ use crate::element::kernel::{ElementState, Stiffness};
 use crate::element::step::ElementStep;
 use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
+use crate::one_leg::OneLeg;
 use crate::real::Over;
-use crate::scales::integrate::BETA;
 use crate::simd::dispatch;
 use crate::state::State;
 use crate::system::StepVectors;
@@ -78,9 +78,9 @@ impl Equations<'_> {
         let (mean, motion) = (feed.over(state.time, h).0, StepMotion::of(&feed, state, b));
         let [q, v, a] = motion.mean(h);
         let before = feed.side.gather(&b.change_before);
-        let strains = system.strains_over_step(model, &feed, (&motion, step), (&before, b.kept));
+        let strains = system.strains_over_step(model, &feed, (&motion, step), (&before, b.kept, b.leg));
         let points = system.points_by_acceleration(&feed, model, state.time + 0.5 * h, h, [&q, &v]);
-        let (inertia, inertia_own) = motor_by_motion(model, &feed, step, [&q, &v, &a]);
+        let (inertia, inertia_own) = motor_by_motion(model, &feed, (step.0, step.1, b.leg), [&q, &v, &a]);
         let moving = Dual { value: acceleration, slope: 1.0 };
         let by_acceleration =
             motion.impulse(&feed.impulse(model, step, moving, true).map(|table| table.map(|row| row.map(|x| x.slope))));
@@ -91,7 +91,7 @@ impl Equations<'_> {
             column[i] =
                 -(0.5 * h * h * strains.impulse[i] + h * points[i]) - 0.25 * h * h * h * dead[i] - by_acceleration[i];
             // drag is symmetric
-            law.row[i] = inertia[i] - BETA * h * by_coordinate[i] + 2.0 * BETA / h * points[i];
+            law.row[i] = inertia[i] - b.leg.b * h * by_coordinate[i] + 2.0 * b.leg.b / h * points[i];
         }
         law.own = inertia_own - 0.5 * h * h * by_length + dot(&drift(&q, mean.length), &points);
         out.clear();
@@ -104,7 +104,12 @@ impl Equations<'_> {
 /// Returns the derivatives of the force of a motor without that of strains, by 12 velocity changes
 /// and by the acceleration.
 #[inline(always)]
-fn motor_by_motion(model: &Model, feed: &FeedElement, step: (f64, f64), motion: [&[f64; 12]; 3]) -> ([f64; 12], f64) {
+fn motor_by_motion(
+    model: &Model,
+    feed: &FeedElement,
+    (time, h, leg): (f64, f64, OneLeg),
+    motion: [&[f64; 12]; 3],
+) -> ([f64; 12], f64) {
     #[inline(always)]
     fn force<T: Real, U: Over<T>>(
         (model, feed): (&Model, &FeedElement),
@@ -114,12 +119,12 @@ fn motor_by_motion(model: &Model, feed: &FeedElement, step: (f64, f64), motion: 
         let on_length = feed.with(model, mean).length_force([q, v, a], &feed.dead(model));
         feed.motor(model, mean, q, on_length)
     }
-    let rates = [0.5 * BETA * step.1, BETA, 1.0 / step.1];
+    let rates = [0.5 * leg.b * h, leg.b, 1.0 / h];
     let [q, v, a] = core::array::from_fn(|k| core::array::from_fn(|i| ByVelocity::along(motion[k][i], i, rates[k])));
-    let row = force((model, feed), feed.over(step.0, step.1).0, [&q, &v, &a]).slope;
+    let row = force((model, feed), feed.over(time, h).0, [&q, &v, &a]).slope;
     let [q, v, a] = motion.map(|x| x.map(constant::<f64>));
     let moving = Dual { value: feed.extent.acceleration, slope: 1.0 };
-    (row, force((model, feed), feed.over_with(step, moving).0, [&q, &v, &a]).slope)
+    (row, force((model, feed), feed.over_with((time, h), moving).0, [&q, &v, &a]).slope)
 }
 
 impl System {
@@ -131,7 +136,7 @@ impl System {
         model: &Model,
         feed: &FeedElement,
         (motion, (time, h)): (&StepMotion, (f64, f64)),
-        (before, kept): (&[f64; 12], f64),
+        (before, kept, leg): (&[f64; 12], f64, OneLeg),
     ) -> Strains {
         let (start, end) = (&motion.q[0], &motion.end());
         let (_, [l0, l1]) = feed.over(time, h);
@@ -151,7 +156,7 @@ impl System {
             bending: ByStrain::along(bending * inverse, 9, -0.5 * bending / (l1 * l1)),
         };
         let (e, effects) = (feed.element(model), self.forces.in_element.as_ref());
-        let pull = self.forces.elements.discrete_gradient_of(effects, &Single(e), &step, stiffness, h);
+        let pull = self.forces.elements.discrete_gradient_of(effects, &Single(e), &step, stiffness, (h, leg));
         // at fixed coordinates the middle control vector, 3 (r_j - r_i)/l, changes by this with the
         // length
         let shrink = d1[1].map(|x| -x / l1);
@@ -273,10 +278,10 @@ mod tests {
             cable.with_workspace(|cable| {
                 let CableStep { mut equations, state, buffers: b } = cable.step_parts();
                 equations.begin_laws(state.time, h);
-                b.recall(state, h);
+                b.recall(state, h, OneLeg::default());
                 for i in 0..b.change.len() {
                     b.velocity_change[i] += 1e-2 * some(31 * trial + i);
-                    b.change[i] += 1e-2 * BETA * h * some(31 * trial + i);
+                    b.change[i] += 1e-2 * OneLeg::default().b * h * some(31 * trial + i);
                 }
                 let side = equations.system.feeds.list[0].side;
                 let mut column = Vec::new();
@@ -311,7 +316,7 @@ mod tests {
                         let by = |b: &mut StepVectors, sign: f64| {
                             for k in 0..moved.len() {
                                 b.velocity_change[k] += sign * moved[k];
-                                b.change[k] += sign * BETA * h * moved[k];
+                                b.change[k] += sign * OneLeg::default().b * h * moved[k];
                             }
                         };
                         by(b, 1.0);
@@ -329,7 +334,7 @@ mod tests {
                     let chord = side.gather(&state.q)[6 + x] + side.gather(&b.change)[6 + x]
                         - side.gather(&state.q)[x]
                         - side.gather(&b.change)[x];
-                    -chord / end_length * h / (2.0 * BETA)
+                    -chord / end_length * h / (2.0 * OneLeg::default().b)
                 });
                 let mut local = [0.0; 12];
                 local.iter_mut().zip(moving).for_each(|(own, x)| *own = x);
@@ -337,7 +342,7 @@ mod tests {
                 let along = |b: &mut StepVectors, by: f64| {
                     for k in 0..motion.len() {
                         b.velocity_change[k] += by * motion[k];
-                        b.change[k] += by * BETA * h * motion[k];
+                        b.change[k] += by * OneLeg::default().b * h * motion[k];
                     }
                 };
                 let [(low, least), (high, most)] = [-probe, probe].map(|by| {

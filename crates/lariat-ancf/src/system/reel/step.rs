@@ -7,7 +7,7 @@ use crate::Real;
 use crate::element::mass;
 use crate::element::variable_length::{Table, add_product};
 use crate::model::Model;
-use crate::scales::integrate::BETA;
+use crate::one_leg::OneLeg;
 use crate::simd::dispatch;
 use crate::state::State;
 use crate::system::Equations;
@@ -89,7 +89,7 @@ impl Equations<'_> {
             });
             feed.side.add(&own.map(|x| rate * x), &mut b.external);
             if matrix {
-                let table = feed.impulse_table(model, impulse);
+                let table = feed.impulse_table(model, impulse, b.leg);
                 feed.add_symmetric(model, &mut system.step.matrix, |r, c| table[r][c]);
             }
         }
@@ -208,10 +208,10 @@ impl FeedElement {
     /// mass matrix, by the changes of velocity. With riding stock or a sheave it is changed to a
     /// table whose symmetric part has the same sums over the rows of positions: one linear solve
     /// then keeps the momentum.
-    fn impulse_table(&self, model: &Model, impulse: &Impulse) -> Table {
+    fn impulse_table(&self, model: &Model, impulse: &Impulse, leg: OneLeg) -> Table {
         let (time, h) = impulse.step;
         let [_, by_change, _, by_velocity] = &impulse.tables;
-        let mut table = table(|a, b| -by_velocity[a][b] - BETA * h * by_change[a][b]);
+        let mut table = table(|a, b| -by_velocity[a][b] - leg.b * h * by_change[a][b]);
         if self.source == Source::Outside {
             return table;
         }

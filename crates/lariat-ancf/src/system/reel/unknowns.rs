@@ -11,6 +11,7 @@ use super::drum::{Pair, Winch};
 use super::graph::Line;
 use super::law::Law;
 use super::wheel::Wheel;
+use crate::one_leg::OneLeg;
 use crate::scales::reel::{SMALL, SWEEPS};
 
 /// A reel in the linear equations of an iteration.
@@ -79,11 +80,11 @@ impl Unknowns {
 
     /// Computes what increments of the bodies turn the drums by: `rows` are those with all rates as
     /// they are.
-    pub(super) fn turn_drums(&mut self, rows: &[f64], h: f64) {
+    pub(super) fn turn_drums(&mut self, rows: &[f64], step: (f64, OneLeg)) {
         self.turned.clear();
         for winch in &self.winches {
-            self.turned.push(winch.turned(rows, h));
-            self.turned.extend(self.rows.iter().map(|column| winch.turned(column, h)));
+            self.turned.push(winch.turned(rows, step));
+            self.turned.extend(self.rows.iter().map(|column| winch.turned(column, step)));
         }
     }
 
@@ -98,15 +99,15 @@ impl Unknowns {
 
     /// Solves for the increments of all accelerations and adds them to the iterate. `feeds` and
     /// `increment` return those of a cable, the increments of its velocity changes with all rates
-    /// as they are; `rows` are those of the bodies over a step of `h` (s).
+    /// as they are; `rows` are those of the bodies over a step of a length in s with a formula.
     pub fn solve<'a>(
         &mut self,
         feeds: impl Fn(usize) -> &'a Feeds,
         increment: impl Fn(usize) -> &'a [f64],
-        (rows, h): (&[f64], f64),
+        (rows, step): (&[f64], (f64, OneLeg)),
     ) {
         let count = self.columns.len();
-        self.turn_drums(rows, h);
+        self.turn_drums(rows, step);
         self.list.clear();
         self.stiffness.clear();
         for (i, &(c, k)) in self.reels.iter().enumerate() {

@@ -77,8 +77,16 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 fn store(system: &System, q: &[f64], change: &[f64]) -> f64 {
     let still = vec![0.0; q.len()];
     let mut unused = still.clone();
-    let step =
-        CoordinateStep { start: q, change: &still, before: change, kept: 1.0, linearised: &[], h: 1.0, near: false };
+    let step = CoordinateStep {
+        start: q,
+        change: &still,
+        before: change,
+        kept: 1.0,
+        linearised: &[],
+        h: 1.0,
+        leg: OneLeg::default(),
+        near: false,
+    };
     system.forces.elements.add_discrete_gradient(system.level, None, step, &mut unused).numerical
 }
 
@@ -109,6 +117,7 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
                         kept: 1.0,
                         linearised: &[],
                         h,
+                        leg: OneLeg::default(),
                         near: false,
                     };
                     let mut force = vec![0.0; n];
@@ -154,6 +163,7 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
             kept: 1.0,
             linearised: &[],
             h: 1.0,
+            leg: OneLeg::default(),
             near: false,
         };
         let mut force = vec![0.0; n];
@@ -200,8 +210,16 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             let still = vec![0.0; n];
             let h = 0.1;
             let force = |change: &[f64]| {
-                let step =
-                    CoordinateStep { start: &q, change, before: &still, kept: 1.0, linearised: &[], h, near: false };
+                let step = CoordinateStep {
+                    start: &q,
+                    change,
+                    before: &still,
+                    kept: 1.0,
+                    linearised: &[],
+                    h,
+                    leg: OneLeg::default(),
+                    near: false,
+                };
                 let mut out = vec![0.0; n];
                 system.forces.elements.add_discrete_gradient(
                     system.level,
@@ -227,6 +245,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
                 kept: 1.0,
                 linearised: &[],
                 h,
+                leg: OneLeg::default(),
                 near: false,
             };
             let mut out = vec![0.0; n];
@@ -255,7 +274,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
             {
                 for c in 0..6 {
                     for r in 0..6 {
-                        let entry = (block.0[c][r] - mass.0[c][r]) / (BETA * h);
+                        let entry = (block.0[c][r] - mass.0[c][r]) / (OneLeg::default().b * h);
                         worst = worst.max((entry - columns[at.1 + c][at.0 + r]).abs());
                     }
                 }
@@ -291,6 +310,7 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                         kept: 1.0,
                         linearised: &[],
                         h,
+                        leg: OneLeg::default(),
                         near: false,
                     };
                     let mut out = vec![0.0; n];
