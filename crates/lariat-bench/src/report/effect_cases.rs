@@ -3,7 +3,7 @@
 //! An effect that is added to the list and has no examples here does not compile.
 
 use lariat_ancf::{
-    Buoyancy, Contact, Damping, Drag, Effects, Flow, GravityScale, LineLoad, LineLoads, RestShape, Vector3,
+    AxialLaw, Buoyancy, Contact, Damping, Drag, Effects, Flow, GravityScale, LineLoad, LineLoads, RestShape, Vector3,
     for_each_effect,
 };
 
@@ -18,6 +18,12 @@ trait Examples: Sized {
 impl Examples for GravityScale {
     fn examples() -> Vec<(&'static str, Self)> {
         vec![("", GravityScale(0.5))]
+    }
+}
+
+impl Examples for AxialLaw {
+    fn examples() -> Vec<(&'static str, Self)> {
+        vec![("Hooke", AxialLaw::Hooke), ("rope", AxialLaw::Rope)]
     }
 }
 

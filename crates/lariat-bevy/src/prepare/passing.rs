@@ -77,6 +77,7 @@ fn hold(world: &mut World, (part, handle, at): (Entity, CableHandle, At), sheave
         anchor: Some(sheave.anchor),
         world: sheave.body.is_none(),
         gap: Gap::Close,
+        direction: None,
     };
     let cables = world.resource::<Cables>();
     let node = cables.set.get(handle).map_or(0, |cable| if at == At::End { cable.nodes() - 1 } else { 0 });

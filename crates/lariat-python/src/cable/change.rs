@@ -5,7 +5,7 @@ use crate::convert::{Array, Place, Vector};
 use crate::error::{Raise, raise};
 use crate::integrator::Choice;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{At, Error, Motion, PointLoad, SlopeSupport, Support, Vector3};
+use lariat_ancf::{Error, Motion, PointLoad, Vector3};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::borrow::Cow;

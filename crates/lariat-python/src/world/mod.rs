@@ -18,7 +18,8 @@ use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
 use lariat_rapier::{
-    AttachmentHandle, AttachmentKind, AttachmentOptions, CableHandle, CableSet, Error, Gap, JunctionHandle, SheaveHandle,
+    AttachmentHandle, AttachmentKind, AttachmentOptions, CableHandle, CableSet, Error, Gap, JunctionHandle,
+    SheaveHandle,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
