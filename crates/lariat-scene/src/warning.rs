@@ -24,8 +24,13 @@ pub enum Warning {
     },
     /// A cable that starts inside a body.
     #[error(
-        "cable {cable:?}: at {at_m:.4} m it starts {depth_m:.2e} m inside body {body:?}: it passes through, and \
-         [cable.contact] does not push it out; check the points of the cable and the place of the body"
+        "cable {cable:?}: at {at_m:.4} m it starts {depth_m:.2e} m inside body {body:?}{}",
+        if *.own {
+            ", which it is attached to: [cable.contact] holds it there, squeezed, and with any force until it is out; draw it outside, by `points` \
+             around the body"
+        } else {
+            ": it passes through, and [cable.contact] does not push it out; check the points of the cable and the place of the body"
+        }
     )]
     StartsInside {
         /// Name of the cable.
@@ -36,6 +41,9 @@ pub enum Warning {
         at_m: f64,
         /// Its distance from the surface in m; in a body thinner than an element, half the length inside.
         depth_m: f64,
+        /// Whether it is attached to the body, and inside beyond what the attachment needs.
+        #[serde(default)]
+        own: bool,
     },
     /// A cable that passes through a body.
     #[error(

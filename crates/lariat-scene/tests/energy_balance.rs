@@ -269,3 +269,25 @@ fn no_energy_is_made_where_only_what_damping_takes_is_uncertain() {
         assert!(!summary.warnings.iter().any(told), "{tolerance}: {:?}", summary.warnings);
     }
 }
+
+/// A crate that a reel lets down onto the ground, and its rope that falls on it: contact and a reel on one cable, judged by the law.
+///
+/// *Source.* The energy law of the discrete gradient: no energy is made, and the weight of the crate does the work.
+#[test]
+fn a_cable_with_contact_and_a_reel_is_judged() {
+    for (mass, rate) in [(10.0, 0.6), (40.0, 0.45)] {
+        let text = format!(
+            "duration = 3.0\n[[body]]\nname = \"ground\"\nkind = \"fixed\"\nshape = {{ plane = [0.0, 1.0, 0.0] }}\nposition = [0.0, -3.0, 0.0]\n\
+             [[body]]\nname = \"load\"\nshape = {{ cuboid = [0.1, 0.1, 0.1] }}\nmass = {mass:?}\nposition = [0.0, -2.15, 0.0]\n\
+             [[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [0.0, -2.0, 0.0]]\nelements = 20\naxial_stiffness = 2.0e5\n\
+             bending_stiffness = 0.05\nmass_per_length = 0.1\nintegrator = {{ fidelity = \"game\" }}\ndamping = {{ axial = 0.005, bending = 0.03 }}\n\
+             contact = {{ radius = 0.01, friction = 0.4 }}\nreel = {{ end = \"start\", rate = [[0.0, {rate:?}], [3.0, 0.0]] }}\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\nanchor = [0.0, 0.15, 0.0]\n"
+        );
+        let (_, balance) = execute(&Scene::parse("let_down.toml", &text, &[], Purpose::Run).unwrap());
+        let fallen = mass * 9.81 * 0.75;
+        assert!(balance.scale_j > 0.9 * fallen && balance.scale_j < 3.0 * fallen, "{balance:?}");
+        assert!(balance.made() < 1e-3, "{balance:?}");
+    }
+}

@@ -44,15 +44,13 @@ impl CableTerms {
 impl CableAccount {
     /// Reads the cable at a host time.
     pub fn note(&mut self, cable: &Cable) {
-        // the law knows no winch, and what impacts take is in the law alone
-        if cable.has_reel() && cable.effects().contact.is_some() {
-            return self.interrupt();
-        }
         let terms = CableTerms::of(cable, &mut self.buffer);
         let now = Last { revision: cable.revision, terms, strain: terms.strain, gravity: terms.gravity };
         let Some(last) = self.last.replace(now).filter(|last| last.revision == now.revision) else { return };
         self.last = Some(Last { strain: last.strain, gravity: last.gravity, ..now });
-        let by_law = cable.integrator().method.uses_discrete_gradients() && !cable.has_reel();
+        // the sum has the work of winches, too, but what impacts take is in the law alone
+        let summed = cable.has_reel() && cable.effects().contact.is_none();
+        let by_law = cable.integrator().method.uses_discrete_gradients() && !summed;
         let change = if by_law { terms.by_law - last.terms.by_law } else { terms.sum() - last.terms.sum() };
         self.balance.dissipated_j += terms.dissipated - last.terms.dissipated;
         self.balance.work_j += terms.work - last.terms.work;

@@ -17,9 +17,10 @@
 //! # Validity
 //!
 //! The discrete gradient has an energy law: B is then its residual less what it lost, and counts as
-//! made beyond the energy that damping took, because the residual of a step may be as large. A step
-//! in which a program changes positions, velocities, loads, supports or effects is left out, and so
-//! is a cable with contact and a reel. The balance is no estimate of the error of positions.
+//! made beyond the energy that damping took, because the residual of a step may be as large. A
+//! cable with a reel is judged by its works, those of the winch among them, unless it has contact,
+//! too. A step in which a program changes positions, velocities, loads, supports or effects is left
+//! out. The balance is no estimate of the error of positions.
 //!
 //! # References
 //!

@@ -135,7 +135,8 @@ impl Finder {
             if restitution > LARGEST_RESTITUTION && !slot.ignored.contains(&key(handle)) {
                 high.push((key(handle), restitution));
             }
-            let except = held_pieces(contents, cable, collider, &*surface, slot.cable.contact_radius());
+            let depth = |anchor: &Vector3<f64>| -surface.nearest(anchor).distance;
+            let except = held_pieces(contents, cable, collider, slot.cable.contact_radius(), depth);
             obstacles.push(Obstacle {
                 key: key(handle),
                 surface,
@@ -182,7 +183,8 @@ impl Finder {
             let touched = slot.and_then(|slot| self.touched(world, CableHandle(index as u32), &slot.rules, found));
             if touched.is_some() && !moves(contents, world, collider) {
                 let except = |surface: &dyn Surface| {
-                    held_pieces(contents, CableHandle(index as u32), collider, surface, cable.contact_radius())
+                    let depth = |anchor: &Vector3<f64>| -surface.nearest(anchor).distance;
+                    held_pieces(contents, CableHandle(index as u32), collider, cable.contact_radius(), depth)
                 };
                 obstacles.extend(self.still_obstacle((found, collider), cable, except));
             }
@@ -311,19 +313,19 @@ fn mount(world: &PhysicsWorld, collider: &Collider, island: &Island, parent: Rig
 }
 
 /// Returns the pieces of a cable at its attachments to the body of a collider, which do not touch it: four radii on both sides, and as much more
-/// as an anchor is deep inside.
-fn held_pieces(
+/// as an anchor is deep inside; `depth` of a point in the axes of the collider, in m, is negative outside.
+pub(crate) fn held_pieces(
     contents: &Contents,
     cable: CableHandle,
     collider: &Collider,
-    surface: &dyn Surface,
     radius: f64,
+    depth: impl Fn(&Vector3<f64>) -> f64,
 ) -> Vec<[f64; 2]> {
     let (Some(parent), Some(local)) = (collider.parent(), collider.position_wrt_parent()) else { return Vec::new() };
     let own = contents.attachments.values().filter(|a| a.cable == cable && a.body == parent);
     own.map(|a| {
         let anchor = rotation(local.rotation).inverse() * (a.anchor - vector(local.translation));
-        let reach = HELD * radius + (-surface.nearest(&anchor).distance).max(0.0);
+        let reach = HELD * radius + depth(&anchor).max(0.0);
         [a.arc_length - reach, a.arc_length + reach]
     })
     .collect()

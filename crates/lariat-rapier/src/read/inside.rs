@@ -18,6 +18,11 @@ use rapier::math::Real;
 /// Returns arc length and depth in m of the place where a cable is deepest in a collider, if it
 /// runs through it.
 pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> {
+    deepest_beside(cable, collider, &[])
+}
+
+/// Returns what [`deepest_inside`] does, of a cable without some of its pieces (arc lengths in m).
+pub(crate) fn deepest_beside(cable: &Cable, collider: &Collider, except: &[[f64; 2]]) -> Option<(f64, f64)> {
     let nodes = (0..cable.nodes()).map(|node| cable.node_position(node));
     let mut around = Aabb::new_invalid();
     nodes.for_each(|x| around.take_point(to_vector(&x)));
@@ -39,6 +44,10 @@ pub fn deepest_inside(cable: &Cable, collider: &Collider) -> Option<(f64, f64)> 
         .windows(2)
         .flat_map(|ends| (0..POINTS).map(move |k| ends[0] + (ends[1] - ends[0]) * k as f64 / POINTS as f64));
     for s in starts.chain([cable.length()]) {
+        if except.iter().any(|[from, to]| (from..=to).contains(&&s)) {
+            outside = None;
+            continue;
+        }
         let Ok(sample) = cable.sample(s) else { continue };
         let point = sample.position;
         let (depth, is_inside) = depth(collider, &point);

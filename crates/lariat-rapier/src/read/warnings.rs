@@ -5,6 +5,7 @@
 //! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time.
 
 use crate::body::unsettled::Unsettled;
+use crate::contact::broad::held_pieces;
 use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::contents::gaps::OpenGap;
@@ -12,9 +13,10 @@ use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
-use crate::read::inside::deepest_inside;
+use crate::read::inside::deepest_beside;
 use crate::scales::HOST_ROUNDING;
 use crate::scales::read::JOLT;
+use ::nalgebra::Vector3;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
 use rapier::dynamics::RigidBodyType;
@@ -34,10 +36,15 @@ pub enum Warning {
         /// Its warning.
         warning: lariat_ancf::Warning,
     },
-    /// A cable runs through a collider of a body that it is not attached to.
+    /// A cable runs through a collider of a body that it is not attached to, or, with contact, of one that it is attached to, beyond what
+    /// the attachment itself needs.
     #[error(
-        "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider: contact does not push it out, and without contact it \
-         passes through; check the points of the cable and the place of the collider"
+        "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider{}; check the points of the cable and the place of the collider",
+        if *.own {
+            " of a body that it is attached to: contact holds it there, squeezed, and with any force until it is out"
+        } else {
+            ": contact does not push it out, and without contact it passes through"
+        }
     )]
     InCollider {
         /// The cable.
@@ -51,6 +58,8 @@ pub enum Warning {
         /// Its distance from the surface in m; where no point that is tested is inside, half the
         /// length inside.
         depth: f64,
+        /// Whether the cable is attached to the body of the collider.
+        own: bool,
     },
     /// An attachment whose two sides are apart.
     #[error(
@@ -117,13 +126,16 @@ pub(crate) fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
         for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
-            let attached = contents.attachments.values();
-            if attached.into_iter().any(|a| a.cable == handle && Some(a.body) == shape.parent()) {
+            let own = contents.attachments.values().any(|a| a.cable == handle && Some(a.body) == shape.parent());
+            let touches = slot.cable.effects().contact.is_some() && slot.rules.allow(shape);
+            if own && !touches {
                 continue;
             }
-            if let Some((arc_length, depth)) = deepest_inside(&slot.cable, shape) {
+            let inside = |x: &Vector3<f64>| -f64::from(shape.shape().distance_to_local_point(to_vector(x), true));
+            let except = held_pieces(contents, handle, shape, slot.cable.contact_radius(), inside);
+            if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
                 let name = slot.cable.name().to_string();
-                warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth });
+                warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth, own });
             }
         }
         if let Some(contact) = slot.cable.effects().contact {

@@ -19,8 +19,9 @@
 //! how much that differs from its mean: of bodies in contact, which Rapier moves a little in each step, that adds up to
 //! some per cent of the energy in a second, and only what is more is told.
 //!
-//! Not judged: islands with sheaves, drums or cables that touch anything, with reels under the discrete gradient, and those
-//! in which a cable is not watched.
+//! By the energy law, which counts the residual of the step itself, islands are judged whatever acts on their cables: contacts,
+//! reels, sheaves, drums. By the other methods, those with sheaves, drums or contact are not: the works of these are not known.
+//! Islands in which a cable is not watched are not judged.
 //!
 //! # Alternatives considered
 //!
@@ -40,21 +41,19 @@ use lariat_ancf::warning::IslandChange;
 use lariat_ancf::warning::balance::{CableTerms, Sizes, weight_and_stiffness};
 use rapier::pipeline::PhysicsWorld;
 
-/// Returns whether an island has a balance.
-fn is_judged(contents: &Contents, island: &Island) -> bool {
+/// Returns whether an island has a balance; `by_law` if it has an energy law.
+fn is_judged(contents: &Contents, island: &Island, by_law: bool) -> bool {
     let moves = island.members.iter().any(|member| !matches!(member, Member::Driven(_)));
-    let plain = island.sheaves.is_empty() && island.drums.is_empty() && island.pairs.is_empty();
+    let plain = by_law || island.sheaves.is_empty() && island.drums.is_empty() && island.pairs.is_empty();
     let mut slots = island.cables.iter().filter_map(|&cable| contents.cables.get(cable));
-    moves && plain && slots.all(|slot| slot.cable.is_watched() && slot.cable.effects().contact.is_none())
+    moves && plain && slots.all(|slot| slot.cable.is_watched() && (by_law || slot.cable.effects().contact.is_none()))
 }
 
 /// Reads an island that is ready to be integrated.
 pub(crate) fn begin(contents: &Contents, island: &Island, prediction: &mut Prediction) {
     prediction.energy.start = None;
-    let reels = island.cables.iter().filter_map(|&cable| contents.cables.get(cable)).any(|slot| slot.cable.has_reel());
     let by_law = is_by_law(prediction);
-    // the energy law of a step knows no winch
-    if !is_judged(contents, island) || by_law && reels {
+    if !is_judged(contents, island, by_law) {
         return;
     }
     let Prediction { energy, start, .. } = prediction;

@@ -4,7 +4,7 @@
 use super::common::{add_cube, cable, run, soft, weightless};
 use lariat_rapier::lariat_ancf::warning::EnergyBalance;
 use lariat_rapier::lariat_ancf::{
-    At, Fidelity, Integrator, Method, Section, StepControl, Vector3, Warning as CableWarning,
+    At, Contact, Fidelity, Integrator, Method, Reel, Section, StepControl, Vector3, Warning as CableWarning,
 };
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
@@ -28,7 +28,7 @@ fn ball(world: &mut PhysicsWorld, mass: Real, at: [Real; 3]) -> RigidBodyHandle 
 }
 
 /// Returns a world with a rope of 2 m that hangs aslant from a point, with a box at its end.
-fn swing(mass: Real, integrator: Integrator) -> (PhysicsWorld, CableSet, CableHandle, RigidBodyHandle) {
+fn swing(mass: Real, integrator: impl Into<Fidelity>) -> (PhysicsWorld, CableSet, CableHandle, RigidBodyHandle) {
     let (mut world, mut set) = (PhysicsWorld::new(), CableSet::new());
     let rope = cable([0.0; 3], [1.2, -1.6, 0.0], soft()).elements(12).integrator(integrator).fix(At::Start);
     let rope = set.insert(rope.build().unwrap());
@@ -232,5 +232,32 @@ fn energy_that_integration_makes_or_takes_of_islands_is_told() {
         run(&mut world, &mut set, 10);
         balance(&set, "stretched");
         assert_eq!(warned(&set, rope).0, due);
+    }
+}
+
+/// Neither contact nor a winch keeps an island from being judged, where it has an energy law: a load swings on a rope that meets a bar, or is wound in there.
+///
+/// *Source.* The energy law of the discrete gradient: no energy is made.
+#[test]
+fn islands_with_contact_and_winches_are_judged_by_the_law() {
+    for (mass, winds) in [(0.7, false), (30.0, false), (5.0, true), (0.9, true)] {
+        let (mut world, mut set, rope, _) = swing(mass, Fidelity::Game);
+        world.insert_collider(ColliderBuilder::cuboid(0.05, 0.05, 0.5).translation(Vector::new(0.0, -0.8, 0.0)), None);
+        set.set_contact(rope, Contact::with_friction(0.3).with_radius(5e-3)).unwrap();
+        if winds {
+            set.get_mut(rope)
+                .unwrap()
+                .add_reel(At::Start, Reel { rate: vec![[0.0, -0.2]], ..Reel::default() })
+                .unwrap();
+        }
+        let mut touched = false;
+        for _ in 0..150 {
+            run(&mut world, &mut set, 1);
+            touched |= set.get(rope).unwrap().contacts().next().is_some();
+        }
+        let (made, _) = balance(&set, &format!("{mass} kg, winds: {winds}"));
+        let book = set.get(rope).unwrap().energy_balance().unwrap();
+        assert!(touched && made < 1e-6 && book.scale_j > 0.1 * f64::from(mass), "{book:?}");
+        assert!((book.dissipated_j > 0.0) && set.get(rope).unwrap().energy_law().contacts > 0.0, "{book:?}");
     }
 }

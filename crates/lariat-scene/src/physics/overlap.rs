@@ -6,11 +6,11 @@ use crate::warning::Warning;
 use lariat_rapier::deepest_inside;
 
 impl Physics {
-    /// Returns a warning for each cable and body, not attached to each other, where the cable runs through the body.
+    /// Returns a warning for each cable and body where the cable runs through the body, beyond what an attachment needs.
     pub fn inside(&mut self, scene: &Scene) -> Vec<Warning> {
-        let mut deepest: Vec<(usize, usize, f64, f64)> = Vec::new();
+        let mut deepest: Vec<(usize, usize, f64, f64, bool)> = Vec::new();
         for warning in self.cables.warnings(&self.world) {
-            if let lariat_rapier::Warning::InCollider { cable, collider, arc_length, depth, .. } = warning
+            if let lariat_rapier::Warning::InCollider { cable, collider, arc_length, depth, own, .. } = warning
                 && let Some(c) = self.handles.iter().position(|handle| *handle == cable)
                 && let Some(parent) = self.world.colliders.get(collider).and_then(|collider| collider.parent())
                 && let Some(b) = self.bodies.iter().position(|body| *body == parent)
@@ -18,14 +18,14 @@ impl Physics {
                 match deepest.iter_mut().find(|found| (found.0, found.1) == (c, b)) {
                     Some(found) if found.3 < depth => (found.2, found.3) = (arc_length, depth),
                     Some(_) => {}
-                    None => deepest.push((c, b, arc_length, depth)),
+                    None => deepest.push((c, b, arc_length, depth, own)),
                 }
             }
         }
         self.passed.extend(deepest.iter().map(|&(c, b, ..)| (c, b)));
-        let name = |(c, b, at_m, depth_m): (usize, usize, f64, f64)| {
+        let name = |(c, b, at_m, depth_m, own): (usize, usize, f64, f64, bool)| {
             let (cable, body) = (scene.cables[c].name.clone(), scene.bodies[b].name.clone());
-            Warning::StartsInside { cable, body, at_m, depth_m }
+            Warning::StartsInside { cable, body, at_m, depth_m, own }
         };
         deepest.into_iter().map(name).collect()
     }

@@ -8,8 +8,8 @@
 //! # Validity
 //!
 //! The energy law of the discrete gradient takes its place in a run in which all cables step by it. A body in a host step in which a collider
-//! is near it, or with a joint, takes part by what its cables do on it: what contacts and joints take is not known. A run with a cable that has
-//! contact and a reel is not judged: the law knows no winch, and what impacts take is in the law alone.
+//! is near it, or with a joint, takes part by what its cables do on it: what contacts and joints take is not known. With reels the works are summed,
+//! those of winches too; but with a cable that has contact and a reel the law is judged, for what impacts take is in the law alone.
 
 use super::World;
 use crate::error::Error;
@@ -60,7 +60,7 @@ impl Account {
     /// [`Error::Coupling`]; not for a running scene.
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         let now = world.terms()?;
-        if now.unknown {
+        if now.unknown && now.by_law.is_none() {
             self.start = None;
             return Ok(());
         }

@@ -86,7 +86,7 @@ impl World {
     /// [`Error::Coupling`]; not for a running scene.
     pub(super) fn terms(&self) -> Result<Terms, Error> {
         let mut terms = Terms::default();
-        let (mut by_law, mut all_by_law) = (0.0, true);
+        let (mut by_law, mut all_by_law, mut winds) = (0.0, true, false);
         for cable in self.cables() {
             let (energy, effects, law) = (cable.energy(), cable.effect_work(), cable.energy_law());
             terms.kinetic += energy.kinetic;
@@ -99,8 +99,7 @@ impl World {
             terms.work += work + dissipated - law.impacts;
             terms.uncertain += law.uncertain;
             terms.unknown |= cable.has_reel() && cable.effects().contact.is_some();
-            // the energy law of a step knows no winch
-            all_by_law &= !cable.has_reel();
+            winds |= cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
             by_law += law.residual - law.numerical - law.rescaled;
             all_by_law &= cable.integrator().method.uses_discrete_gradients();
@@ -116,7 +115,8 @@ impl World {
         // the law counts all forces on bodies as loads
         let in_law = terms.bodies.iter().filter(|body| body.in_law);
         terms.work += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
-        terms.by_law = all_by_law.then_some(by_law);
+        // the work of winches is checked too, where that of contacts does not keep it from being known
+        terms.by_law = (all_by_law && (terms.unknown || !winds)).then_some(by_law);
         Ok(terms)
     }
 

@@ -136,3 +136,39 @@ fn bodies_of_all_shapes_that_a_cable_runs_through_are_told_and_only_those() {
     println!("through {through:?}, by {by:?}");
     assert!(through.iter().chain(&by).all(|count| *count >= 3), "{through:?} {by:?}");
 }
+
+/// A rope with contact whose slack is drawn through the body that it is tied to is told by name; not one that lies outside, nor one without contact, nor
+/// one whose eye is inside.
+#[test]
+fn a_rope_that_starts_in_its_own_body_is_told() {
+    let text = |half: f64, place: [f64; 2], anchor: [f64; 2], length: f64, contact: &str| {
+        let end = [place[0] + anchor[0], place[1] + anchor[1]];
+        format!(
+            "duration = 0.02\n[[body]]\nname = \"load\"\nshape = {{ cuboid = [{half:?}, {half:?}, {half:?}] }}\nmass = 10.0\n\
+             position = [{:?}, {:?}, 0.0]\n[[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [{:?}, {:?}, 0.0]]\nlength = {length:?}\n\
+             elements = 16\naxial_stiffness = 200000.0\nbending_stiffness = 0.05\nmass_per_length = 0.1\nintegrator = {{ fidelity = \"game\" }}\n{contact}\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\nanchor = [{:?}, {:?}, 0.0]\n",
+            place[0], place[1], end[0], end[1], anchor[0], anchor[1]
+        )
+    };
+    let contact = "contact = { radius = 0.01, friction = 0.4 }";
+    for (half, place, anchor, length, contact, told) in [
+        (0.1, [2.0, -0.1], [0.0, 0.1], 3.4, contact, true),
+        (0.3, [3.0, -0.3], [0.0, 0.3], 5.0, contact, true),
+        (0.1, [2.0, -0.1], [0.0, 0.1], 3.4, "", false),
+        // straight down from above, with the eye on the face, above it and inside
+        (0.1, [0.0, -2.1], [0.0, 0.1], 2.0, contact, false),
+        (0.1, [0.0, -2.15], [0.0, 0.15], 2.0, contact, false),
+        (0.1, [0.0, -2.0], [0.0, 0.0], 2.0, contact, false),
+    ] {
+        let warnings = warned(&text(half, place, anchor, length, contact), Purpose::Run);
+        let inside = warnings.iter().find_map(|warning| match warning {
+            Warning::StartsInside { body, depth_m, own, .. } => Some((body.clone(), *depth_m, *own)),
+            _ => None,
+        });
+        let expected = told.then(|| ("load".to_string(), true));
+        assert_eq!(inside.clone().map(|(body, _, own)| (body, own)), expected, "{half} {anchor:?}: {warnings:?}");
+        assert!(inside.is_none_or(|(_, depth, _)| depth > 0.3 * half && depth <= half), "{warnings:?}");
+    }
+}
