@@ -131,7 +131,7 @@ pub(crate) fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
             if own && !touches {
                 continue;
             }
-            let inside = |x: &Vector3<f64>| -f64::from(shape.shape().distance_to_local_point(to_vector(x), true));
+            let inside = |x: &Vector3<f64>| -f64::from(shape.shape().distance_to_local_point(to_vector(x), false));
             let except = held_pieces(contents, handle, shape, slot.cable.contact_radius(), inside);
             if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
                 let name = slot.cable.name().to_string();
