@@ -110,6 +110,9 @@ pub enum Error {
         /// The body.
         body: RigidBodyHandle,
     },
+    /// A direction that is given for a ball.
+    #[error("a ball holds no direction of the cable: choose a clamp, or leave the direction out")]
+    DirectionOfBall,
     /// A cable on bodies that are to be moved, which something else holds, too.
     #[error(
         "cable {cable:?} cannot be moved with the bodies: something holds it that stays where it is; move that too, or detach it first"

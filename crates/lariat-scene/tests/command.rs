@@ -55,6 +55,7 @@ fn a_run_writes_its_probes_and_a_summary_with_every_key() {
         "factorisations",
         "solves",
         "divided_steps",
+        "search_tests",
         "iterations_for",
         "divisions_for",
         "element_evaluations",

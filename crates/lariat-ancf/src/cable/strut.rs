@@ -4,11 +4,11 @@
 //!
 //! A straight line is in equilibrium under any compression, in exact arithmetic for ever. Beyond the
 //! Euler load it is unstable, and what grows from is whatever bends it. A cable that is straight to
-//! less than that, and of which an element is compressed by more than a free span of its whole length
-//! with one free end could bear,
+//! less than that, and whose mean compression is more than a free span of its whole length with one
+//! free end could bear,
 //!
 //! ```text
-//! N > pi^2 EI/(2 L)^2        r_i += a sum_(k = 1..8) sin(k pi s_i/L)/8 n        a = 2^-23 L
+//! N = -(1/L) sum_e EA eps_e l_e > pi^2 EI/(2 L)^2        r_i += a sum_(k = 1..8) sin(k pi s_i/L)/8 n        a = 2^-23 L
 //! ```
 //!
 //! is bent by `a`, which is the rounding of positions in single precision, in which hosts have them. The
@@ -19,7 +19,8 @@
 //!
 //! Below the load of its own supports a bent cable straightens again, so the bend does nothing. It
 //! changes the energy by less than `2e-12 N L`. It is looked for when a step begins; a cable that is bent
-//! or pulled is left after its first elements.
+//! is left after its first elements. The mean is that of a half wave over the whole cable; waves of
+//! compression that run along a taut cable, whose mean is tension, do not bend it.
 //!
 //! # References
 //!
@@ -64,14 +65,16 @@ impl Cable {
         Some(before)
     }
 
-    /// Returns the direction of a cable that is straight, and somewhere compressed beyond its Euler load.
+    /// Returns the direction of a cable that is straight, and in the mean compressed beyond its Euler load.
     fn is_loaded_strut(&self) -> Option<Vector3<f64>> {
         let part = |at: usize| Vector3::from_column_slice(&self.positions()[at..at + 3]);
         let first = part(0);
         let along = (part(6) - first).try_normalize(0.0)?;
         let length = self.length();
         let off = |x: Vector3<f64>| x - along * along.dot(&x);
-        let (least, mut compressed) = (UNBENT * BEND, false);
+        let least = UNBENT * BEND;
+        // integrals along the cable: compression, shortening, and what it bears
+        let (mut pushed, mut shorter, mut bears) = (0.0, 0.0, 0.0);
         let mut before = first;
         for (e, element) in self.model.elements.iter().enumerate() {
             let (position, slope) = (part(6 * e + 6), part(6 * e + 9));
@@ -80,10 +83,11 @@ impl Cable {
             }
             let strain = (position - before).norm() / element.length - 1.0;
             let section = &element.section;
-            let bears = (PI / (2.0 * length)).powi(2) * section.bending_stiffness;
-            compressed |= -strain > COMPRESSED && -strain * section.axial_stiffness > bears;
+            shorter -= strain * element.length;
+            pushed -= strain * element.length * section.axial_stiffness;
+            bears += (PI / (2.0 * length)).powi(2) * section.bending_stiffness * element.length;
             before = position;
         }
-        (compressed && off(part(3)).amax() <= least).then_some(along)
+        (shorter > COMPRESSED * length && pushed > bears && off(part(3)).amax() <= least).then_some(along)
     }
 }

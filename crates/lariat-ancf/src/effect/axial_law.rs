@@ -25,7 +25,8 @@
 //!
 //! # Validity
 //!
-//! Stretch above 1/4; below, f is continued linearly in f^2, so that energy and force stay finite.
+//! Damping is another effect, and acts in a slack element, too: with it a rope pushes by the rate of
+//! its strain. Stretch above 1/4; below, f is continued linearly in f^2, so that energy and force stay finite.
 //! EA of the section is the steepest slope of a curve or more: steps, tolerances and numerical
 //! dissipation go by it. With `rope` and `curve` a slack element has no axial stiffness but that
 //! share (1e-3 EA of strains that are not linear in the element).
@@ -61,7 +62,8 @@ use serde::{Deserialize, Serialize};
 pub enum AxialLaw {
     /// EA times the strain, in tension and in compression.
     Hooke,
-    /// EA times the strain in tension, nothing in compression: a rope that cannot push.
+    /// EA times the strain in tension, nothing in compression: a rope that cannot push, but by axial
+    /// damping, if it has any.
     Rope,
     /// A measured curve: rows of strain and force in N, both ascending, from the strain at which the
     /// force begins with 0 N. It cannot push.

@@ -24,6 +24,9 @@ pub(crate) fn attach(
     (body, anchor): (RigidBodyHandle, Vector3<f64>),
     AttachmentOptions { kind, gap, direction: along }: AttachmentOptions,
 ) -> Result<AttachmentHandle, Error> {
+    if kind == AttachmentKind::Ball && along.is_some() {
+        return Err(Error::DirectionOfBall);
+    }
     let rigid = check(contents, world, (cable, at), (body, anchor), gap)?;
     let node = free_node(contents, cable, at)?;
     let attached = contents.cable_mut(cable)?;

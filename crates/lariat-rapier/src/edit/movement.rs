@@ -36,6 +36,14 @@ pub(crate) fn move_bodies(
     if !(way.iter().chain(turn.coords.iter()).all(|x| x.is_finite()) && turn.norm() > 0.5) {
         return Err(Error::MoveNotFinite);
     }
+    // a body that holds two ropes is easily listed twice
+    let mut once: Vec<RigidBodyHandle> = Vec::with_capacity(bodies.len());
+    bodies.iter().for_each(|body| {
+        if !once.contains(body) {
+            once.push(*body)
+        }
+    });
+    let bodies = once.as_slice();
     for &handle in bodies {
         world.bodies.get(handle).ok_or(Error::NoBody(handle))?;
         let joined = mechanism::bodies(world, handle);
@@ -50,8 +58,11 @@ pub(crate) fn move_bodies(
     }
     let cables = with_them(contents, bodies);
     check(contents, bodies, &cables)?;
+    let time = contents.cables.values().next().map_or(0.0, |slot| slot.cable.time());
     for &handle in bodies {
-        let time = contents.cables.values().next().map_or(0.0, |slot| slot.cable.time());
+        body::read(world, handle, contents.records.record_mut(handle), time)?;
+    }
+    for &handle in bodies {
         move_body(world, contents.records.record_mut(handle), (&turn, &way), time)?;
     }
     for &cable in &cables {

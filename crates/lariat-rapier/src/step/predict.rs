@@ -223,9 +223,15 @@ fn cable_load(contents: &Contents, island: &Island, member: usize, body: &RigidB
 }
 
 /// Returns the integrator of an island: that of its cables if they agree, else the one with the
-/// tightest tolerance, or with the shortest steps.
+/// tightest tolerance, or with the shortest steps; where anything asks for the discrete gradient
+/// (contact, sheaves, drums), of those that are one.
 fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> Integrator {
-    let all = || island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|s| s.cable.integrator());
+    let slots = || island.cables.iter().filter_map(|&c| contents.cables.get(c));
+    let wheels = !(island.sheaves.is_empty() && island.drums.is_empty());
+    let by_gradient = |i: &Integrator| i.method.uses_discrete_gradients();
+    let can = slots().any(|slot| by_gradient(&slot.cable.integrator()));
+    let only = can && (wheels || slots().any(|slot| slot.cable.effects().contact.is_some()));
+    let all = || slots().map(|slot| slot.cable.integrator()).filter(|i| !only || by_gradient(i));
     let first = all().next().unwrap_or_default();
     if all().all(|i| i == first) {
         return first;

@@ -2,7 +2,7 @@
 
 use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, weightless, wire};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, CableBuilder, Damping, Fidelity, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, CableBuilder, Damping, Drag, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Event};
 
@@ -124,7 +124,10 @@ fn series(masses: &[Real], section: Section, damping: f64, pull: f64) -> ([f64; 
         let load = add_cube(&mut world, *mass, 0.1, [x - 2.1, 0.0, 0.0]);
         let wire = cable([f64::from(x), 0.0, 0.0], [f64::from(x) - 2.0, 0.0, 0.0], section).gravity(Vector3::zeros());
         let wire = wire.fidelity(Fidelity::Engineering).elements(10).damping(Damping { axial: damping, bending: 0.0 });
-        let wire = set.insert(wire.build().unwrap());
+        let mut wire = wire.build().unwrap();
+        // a wire buckles whenever its load runs ahead of it, and nothing else would damp how it swings across from then on
+        wire.set_drag(Drag { diameter: Some(0.01), ..Drag::new(1000.0, 1.2, 0.0, Default::default()) }).unwrap();
+        let wire = set.insert(wire);
         set.attach_here(&world, wire, At::Start, last, AttachmentKind::Ball).unwrap();
         set.attach_here(&world, wire, At::End, load, AttachmentKind::Ball).unwrap();
         wires.push(wire);

@@ -2,7 +2,7 @@
 
 use super::common::{Random, cable, judge, place, told};
 use lariat_rapier::convert::to_vector;
-use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Integrator, Section, StepControl, Vector3};
+use lariat_rapier::lariat_ancf::{At, Damping, Drag, Fidelity, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -167,7 +167,10 @@ impl Jam {
             .fidelity(self.fidelity)
             .elements(6);
         let mut set = CableSet::new();
-        let rope = set.insert(rope.build().unwrap());
+        let mut rope = rope.build().unwrap();
+        // a rope buckles whenever the body runs ahead of it, and nothing else would damp how it swings across from then on
+        rope.set_drag(Drag { diameter: Some(0.01), ..Drag::new(1000.0, 1.2, 0.0, Default::default()) }).unwrap();
+        let rope = set.insert(rope);
         let hook = set.attach_here(&world, rope, At::Start, body, AttachmentKind::Ball).unwrap();
         set.attach_here(&world, rope, At::End, winch, AttachmentKind::Ball).unwrap();
         let stretch = self.tension / self.section.axial_stiffness * self.rope;

@@ -119,7 +119,13 @@ fn main() -> ExitCode {
 fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<Summary, Error> {
     let purpose = if from.is_some() { Purpose::Resume } else { Purpose::Run };
     let scene = Scene::read(&arguments.scene, &arguments.set, purpose)?;
-    // read before the folder of results is cleared, which may be the same
+    // a run removes what the last one wrote to its folder
+    let same = |folder: &PathBuf| folder.canonicalize().ok() == arguments.out.canonicalize().ok();
+    if from.as_ref().is_some_and(same) {
+        let source =
+            io::Error::new(io::ErrorKind::InvalidInput, "it holds the state to start from: give another folder");
+        return Err(Error::Output { path: arguments.out.clone(), source });
+    }
     let from = from.as_deref().map(State::read).transpose()?;
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
