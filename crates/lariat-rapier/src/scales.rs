@@ -176,7 +176,7 @@ pub(crate) mod step {
 
     /// Time in s over which a deviation of a body counts that a shorter Rapier step made: what
     /// single precision rounds would else read as a force of 1/h, and of the place of a body as one
-    /// of 1/h^2. Derived: the finest Rapier step of a host step of 1/60 s, 32 of them. Measured:
+    /// of 1/h^2. Derived: the finest Rapier step of a host step of 1/60 s, 32 of them:
     /// with 1/960 s a cube of 1 kg that a steel bar jams, which needs those, holds its tension no
     /// more to 0.2 % (tests, contact.rs).
     pub(crate) const SHORTEST_REACTION: f64 = 1.0 / 1920.0;
