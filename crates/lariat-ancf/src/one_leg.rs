@@ -12,7 +12,7 @@
 //! not resolve is multiplied by L in each step: -1/3 for a = 1/16, where the root is double and a
 //! larger a damps no more; -0.97 for a = 1/256; -1 for a = 0, that is not damped.
 
-use crate::scales::integrate::ALPHA;
+use crate::scales::integrate::{ALPHA, OF_MIDPOINT};
 
 /// a and b = 1/2 + a.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,12 @@ impl OneLeg {
     pub fn share_kept(&self, (before, step): (f64, f64), h: f64) -> f64 {
         let of_length = if step > h { h / step } else { 1.0 };
         if before < self.a { of_length * (before / self.a).sqrt() } else { of_length }
+    }
+
+    /// Returns the factors on D v and on what counts of O v in the estimated error of a step, which
+    /// is `ratio` times as long as the one before, of which `kept` counts.
+    pub fn error_factors(&self, ratio: f64, kept: f64) -> [f64; 2] {
+        [OF_MIDPOINT + self.a, OF_MIDPOINT * ratio / kept + self.a]
     }
 }
 

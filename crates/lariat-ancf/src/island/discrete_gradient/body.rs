@@ -25,7 +25,6 @@
 //!
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
 
-use super::error::factors;
 use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
 use crate::integrate::discrete_gradient::sum_of_forces;
@@ -226,7 +225,7 @@ impl BodyStep {
         if before == 0.0 || kept == 0.0 || self.is_driven() {
             return 0.0;
         }
-        let [of_change, of_before] = factors(self.leg.a, self.h / before, kept);
+        let [of_change, of_before] = self.leg.error_factors(self.h / before, kept);
         let [v, spin] = split(&(self.change * of_change - self.before * of_before));
         self.h * (v + self.rotation * spin.cross(&anchor)).norm()
     }

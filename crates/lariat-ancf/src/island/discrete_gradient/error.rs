@@ -32,13 +32,7 @@
 
 use super::IslandStep;
 use super::body::BodyStep;
-use crate::scales::integrate::OF_MIDPOINT;
 use crate::system::{CableStep, project_vector};
-
-/// Returns the factors on D v and on what counts of O v.
-pub(super) fn factors(a: f64, ratio: f64, kept: f64) -> [f64; 2] {
-    [OF_MIDPOINT + a, OF_MIDPOINT * ratio / kept + a]
-}
 
 impl IslandStep<'_, '_> {
     /// Returns the estimated error of the iterate in m; 0 where it is not known.
@@ -72,7 +66,7 @@ fn error_of_cable(CableStep { mut equations, state, buffers: b }: CableStep<'_>)
     if before == 0.0 || b.kept == 0.0 {
         return 0.0;
     }
-    let [of_change, of_before] = factors(b.leg.a, b.h / before, b.kept);
+    let [of_change, of_before] = b.leg.error_factors(b.h / before, b.kept);
     for i in 0..b.external.len() {
         b.external[i] = b.h * (of_change * b.velocity_change[i] - of_before * b.velocity_before[i]);
     }
