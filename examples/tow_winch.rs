@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut world = World::build(&scene)?;
     world.start(Purpose::Run)?;
     let (mut most, mut drift, mut ratio) = (0.0f64, 0.0f64, f64::NAN);
-    for step in 1..=1200 {
+    for step in 1..=900 {
         world.advance(f64::from(step) / 60.0)?;
         let Some(reel) = world.cables()[0].reel(At::End) else { continue };
         let speed = world.body(0).map_or(f64::NAN, |barge| barge.velocity.x);
