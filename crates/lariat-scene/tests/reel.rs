@@ -155,7 +155,10 @@ fn a_windlass_of_a_scene_hoists_its_bucket() {
         let scene = Scene::read(&path, &overrides, Purpose::Run).unwrap();
         let out = folder.path().join("out");
         let summary = run::run(&scene, &out, &mut Options::default()).unwrap();
-        assert!(summary.failed.is_none() && summary.warnings.is_empty(), "{summary:?}");
+        // let go, the rope runs out with 0.53 of the speed of its waves at last, where its frequencies are wrong
+        let told = summary.warnings.iter().all(|warning| format!("{warning:?}").contains("FastReel"));
+        let fast = usize::from(torque == 0.0);
+        assert!(summary.failed.is_none() && told && summary.warnings.len() == fast, "{summary:?}");
         let last = ["bucket", "drum", "reel"].map(|name| {
             let text = std::fs::read_to_string(out.join(format!("probes/{name}.csv"))).unwrap();
             let row = text.lines().last().unwrap();
