@@ -104,7 +104,7 @@ fn a_contact_that_is_far_costs_nothing() {
     }
     assert_eq!(without.positions(), with.positions());
     assert_eq!(without.velocities(), with.velocities());
-    let mut counts = with.diagnostics().clone();
+    let mut counts = *with.diagnostics();
     assert!(counts.search_tests <= 10 * counts.steps && counts.effects.contact == 0, "{counts:?}");
     counts.search_tests = 0;
     assert_eq!(without.diagnostics(), &counts);
