@@ -38,11 +38,8 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 impl Cable {
-    /// Bends a straight cable that is compressed beyond what it can bear, and returns its coordinates before;
-    /// `None` for one that is left.
-    pub(crate) fn bend_strut(&mut self) -> Option<Vec<f64>> {
-        let along = self.is_loaded_strut()?;
-        let before = self.positions().to_vec();
+    /// Bends a straight cable along a unit vector.
+    pub(crate) fn bend_strut(&mut self, along: &Vector3<f64>) {
         let axis = if along.x.abs() <= along.y.abs() { Vector3::x() } else { Vector3::y() };
         let normal = (axis - along * along.dot(&axis)).normalize();
         let length = self.length();
@@ -62,18 +59,18 @@ impl Cable {
             }
             from += self.model.elements.get(node).map_or(0.0, |element| element.length);
         }
-        Some(before)
     }
 
-    /// Returns the direction of a cable that is straight, and in the mean compressed beyond its Euler load.
-    fn is_loaded_strut(&self) -> Option<Vector3<f64>> {
+    /// Returns the direction of a cable that is straight, and in the mean compressed beyond its
+    /// Euler load.
+    pub(crate) fn loaded_strut(&self) -> Option<Vector3<f64>> {
         let part = |at: usize| Vector3::from_column_slice(&self.positions()[at..at + 3]);
         let first = part(0);
         let along = (part(6) - first).try_normalize(0.0)?;
         let length = self.length();
         let off = |x: Vector3<f64>| x - along * along.dot(&x);
         let least = UNBENT * BEND;
-        // integrals along the cable: compression, shortening, and what it bears
+        // integrals along the cable: compression, shortening, and bending stiffness
         let (mut pushed, mut shorter, mut bears) = (0.0, 0.0, 0.0);
         let mut before = first;
         for (e, element) in self.model.elements.iter().enumerate() {
@@ -85,9 +82,12 @@ impl Cable {
             let section = &element.section;
             shorter -= strain * element.length;
             pushed -= strain * element.length * section.axial_stiffness;
-            bears += (PI / (2.0 * length)).powi(2) * section.bending_stiffness * element.length;
+            bears += section.bending_stiffness * element.length;
             before = position;
         }
-        (shorter > COMPRESSED * length && pushed > bears && off(part(3)).amax() <= least).then_some(along)
+        (shorter > COMPRESSED * length
+            && pushed > (PI / (2.0 * length)).powi(2) * bears
+            && off(part(3)).amax() <= least)
+            .then_some(along)
     }
 }

@@ -27,6 +27,39 @@ pub struct Island {
     by_discrete_gradient: StepBuffers,
     scratch: Scratch,
     state: State,
+    straight: Straight,
+}
+
+/// Coordinates of cables that a step bent, as they were before it.
+#[derive(Clone, Debug, Default)]
+struct Straight {
+    cables: Vec<usize>,
+    q: Vec<f64>,
+}
+
+impl Straight {
+    /// Bends the struts among the cables.
+    fn bend(&mut self, cables: &mut [&mut Cable]) {
+        self.cables.clear();
+        self.q.clear();
+        for (i, cable) in cables.iter_mut().enumerate() {
+            let Some(along) = cable.loaded_strut() else { continue };
+            self.cables.push(i);
+            self.q.extend(cable.positions());
+            cable.bend_strut(&along);
+        }
+    }
+
+    /// Makes them straight again, as a step that failed leaves them.
+    fn put_back(&self, cables: &mut [&mut Cable]) {
+        let mut q = self.q.as_slice();
+        for &i in &self.cables {
+            let own = &mut cables[i].snapshot.state.q;
+            let (first, rest) = q.split_at(own.len());
+            own.copy_from_slice(first);
+            q = rest;
+        }
+    }
 }
 
 impl Island {
@@ -93,9 +126,8 @@ impl Island {
         for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
             cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         }
-        // as they were, if the step fails; hardly ever any
-        let straight: Vec<(usize, Vec<f64>)> =
-            cables.iter_mut().enumerate().filter_map(|(i, cable)| Some((i, cable.bend_strut()?))).collect();
+        let mut straight = std::mem::take(&mut self.straight);
+        straight.bend(cables);
         cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
         reel::begin(&mut self.by_discrete_gradient.unknowns, cables, pins, (&*sheaves, drums));
         cables.iter_mut().for_each(|cable| cable.take_workspace());
@@ -103,11 +135,12 @@ impl Island {
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
         cables.iter_mut().for_each(|cable| cable.end_reel(outcome.is_ok()));
         if outcome.is_err() {
-            straight.into_iter().for_each(|(i, q)| cables[i].snapshot.state.q = q);
+            straight.put_back(cables);
         } else {
             let wheels = &self.by_discrete_gradient.unknowns.wheels;
             sheaves.iter_mut().zip(wheels).for_each(|(sheave, wheel)| *sheave = wheel.sheave);
         }
+        self.straight = straight;
         outcome
     }
 
@@ -120,7 +153,7 @@ impl Island {
         dt: f64,
     ) -> Result<(), Error> {
         cables.iter_mut().for_each(|cable| cable.begin_accounts());
-        let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state } = self;
+        let Island { layout, matrices, accounts, vectors, by_discrete_gradient: buffers, scratch, state, .. } = self;
         layout.begin(cables, bodies, pins, dt);
         matrices.begin(layout);
         accounts.begin(cables, layout);

@@ -52,7 +52,9 @@ impl Cable {
 
     fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         self.before.copy_from(&self.snapshot.state);
-        self.bend_strut();
+        if let Some(along) = self.loaded_strut() {
+            self.bend_strut(&along);
+        }
         self.refresh_memory();
         self.begin_accounts();
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
