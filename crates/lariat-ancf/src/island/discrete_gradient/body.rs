@@ -37,6 +37,16 @@ use crate::system::angular::{Momenta, Turn};
 use crate::term::{Account, Balance};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
+/// What a step leaves for the next one.
+#[derive(Clone, Copy, Debug)]
+struct LastStep {
+    /// Change of u.
+    change: Vector6<f64>,
+    dissipation: f64,
+    /// Length in s; 0 if there was none.
+    step: f64,
+}
+
 /// A body, at its present state and over a step.
 #[derive(Clone, Debug)]
 pub(in crate::island) struct BodyStep {
@@ -52,10 +62,11 @@ pub(in crate::island) struct BodyStep {
     pub rotation: UnitQuaternion<f64>,
     /// u at the present state.
     pub velocity: Vector6<f64>,
-    /// Change of u in the last step, with its dissipation and its length in s.
-    last: (Vector6<f64>, (f64, f64)),
+    last: LastStep,
     h: f64,
     leg: OneLeg,
+    /// The share of the last step that counts in this one.
+    kept: f64,
     /// Whether its state at the beginning of the host step was not that of the last one.
     moved: bool,
     /// O u.
@@ -95,8 +106,10 @@ impl BodyStep {
         }
         let spin = body.rotation.inverse() * body.angular_velocity;
         let last = match body.memory.as_ref().and_then(|memory| memory.differences.as_ref()) {
-            Some(differences) => (stack(differences.change), (differences.dissipation, differences.step)),
-            None => (Vector6::zeros(), (ALPHA, 0.0)),
+            Some(BodyDifferences { change, dissipation, step, .. }) => {
+                LastStep { change: stack(*change), dissipation: *dissipation, step: *step }
+            }
+            None => LastStep { change: Vector6::zeros(), dissipation: ALPHA, step: 0.0 },
         };
         BodyStep {
             mass: body.mass,
@@ -109,10 +122,11 @@ impl BodyStep {
             position: body.position,
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
-            moved: last.1.1 == 0.0,
+            moved: last.step == 0.0,
             last,
             h: 0.0,
             leg: OneLeg::default(),
+            kept: 1.0,
             before: Vector6::zeros(),
             change: Vector6::zeros(),
             mean: [Vector3::zeros(); 2],
@@ -130,9 +144,8 @@ impl BodyStep {
     /// Begins a step of length `h` (s) with a formula, at constant acceleration.
     pub fn predict(&mut self, h: f64, leg: OneLeg) {
         (self.h, self.leg) = (h, leg);
-        let (last, before) = self.last;
-        let factor = leg.share_kept(before, h);
-        let [mut v, spin] = split(&(last * factor));
+        self.kept = leg.share_kept((self.last.dissipation, self.last.step), h);
+        let [mut v, spin] = split(&(self.last.change * self.kept));
         let mut turned = self.rotation * spin;
         for x in 0..3 {
             if !self.free[x] {
@@ -220,12 +233,11 @@ impl BodyStep {
     /// Returns the estimated error in m of a point of the body in a step of smooth motion; 0 where
     /// it is not known, and of one that cannot move.
     pub fn error(&self, anchor: Vector3<f64>) -> f64 {
-        let (dissipation, before) = self.last.1;
-        let kept = self.leg.share_kept((dissipation, before), self.h);
-        if before == 0.0 || kept == 0.0 || self.is_driven() {
+        let before = self.last.step;
+        if before == 0.0 || self.kept == 0.0 || self.is_driven() {
             return 0.0;
         }
-        let [of_change, of_before] = self.leg.error_factors(self.h / before, kept);
+        let [of_change, of_before] = self.leg.error_factors(self.h / before, self.kept);
         let [v, spin] = split(&(self.change * of_change - self.before * of_before));
         self.h * (v + self.rotation * spin.cross(&anchor)).norm()
     }
@@ -353,7 +365,7 @@ impl BodyStep {
         }
         self.rotation = self.end;
         self.velocity = stack([v, self.rotation.inverse() * turned]);
-        self.last = (self.change - self.landed, (self.leg.a, self.h));
+        self.last = LastStep { change: self.change - self.landed, dissipation: self.leg.a, step: self.h };
     }
 
     /// Adds its momenta at the present state.
@@ -402,9 +414,9 @@ impl BodyStep {
     /// Returns the memory of the last step.
     pub fn differences(&self) -> BodyDifferences {
         BodyDifferences {
-            change: split(&self.last.0),
-            step: self.last.1.1,
-            dissipation: self.last.1.0,
+            change: split(&self.last.change),
+            step: self.last.step,
+            dissipation: self.last.dissipation,
             velocity: [split(&self.velocity)[0], self.spin()],
             rotation: self.rotation,
         }
