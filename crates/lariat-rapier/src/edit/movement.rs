@@ -21,6 +21,7 @@ use crate::mechanism;
 use ::nalgebra::{UnitQuaternion, Vector3, Vector6};
 use lariat_ancf::At;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::island::RigidBody;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Pose;
 use rapier::pipeline::PhysicsWorld;
@@ -59,11 +60,13 @@ pub(crate) fn move_bodies(
     let cables = with_them(contents, bodies);
     check(contents, bodies, &cables)?;
     let time = contents.cables.values().next().map_or(0.0, |slot| slot.cable.time());
+    let mut moved = Vec::with_capacity(bodies.len());
     for &handle in bodies {
-        body::read(world, handle, contents.records.record_mut(handle), time)?;
+        moved.push(body::read(world, handle, contents.records.record_mut(handle), time)?);
     }
-    for &handle in bodies {
-        move_body(world, contents.records.record_mut(handle), (&turn, &way), time)?;
+    for (&handle, mut body) in bodies.iter().zip(moved) {
+        body.move_by(&turn, &way);
+        put(world, contents.records.record_mut(handle), &body, &turn);
     }
     for &cable in &cables {
         contents.cable_mut(cable)?.move_by(&turn, &way);
@@ -72,7 +75,7 @@ pub(crate) fn move_bodies(
     for junction in contents.junctions.values_mut().filter(|j| j.nodes.iter().any(|(cable, _)| moved(cable))) {
         // a junction is a point, which keeps no place of its own: its memory turns as that of any
         // body does
-        let mut point = lariat_ancf::island::RigidBody::junction(Vector3::zeros())?;
+        let mut point = RigidBody::junction(Vector3::zeros())?;
         point.memory = junction.memory;
         point.move_by(&turn, &way);
         junction.memory = point.memory;
@@ -129,24 +132,16 @@ fn check(contents: &Contents, bodies: &[RigidBodyHandle], cables: &[CableHandle]
     Ok(())
 }
 
-/// Moves a body, and what is remembered of it.
-fn move_body(
-    world: &mut PhysicsWorld,
-    record: &mut BodyRecord,
-    (turn, way): (&UnitQuaternion<f64>, &Vector3<f64>),
-    time: f64,
-) -> Result<(), Error> {
+/// Puts a body that was moved into the world, and turns what is remembered of it.
+fn put(world: &mut PhysicsWorld, record: &mut BodyRecord, moved: &RigidBody, turn: &UnitQuaternion<f64>) {
     record.reaction = Vector6::zeros();
-    let mut moved = body::read(world, record.handle, record, time)?;
-    moved.move_by(turn, way);
     let body = &mut world.bodies[record.handle];
     let origin = moved.position - moved.rotation * vector(body.local_center_of_mass());
     body.set_position(to_pose(&origin, &moved.rotation), true);
     body.set_linvel(to_vector(&moved.velocity), true);
     body.set_angvel(to_vector(&moved.angular_velocity), true);
-    record.exact = body.is_dynamic().then(|| ExactState::new(&moved, (moved.velocity, moved.angular_velocity), body));
+    record.exact = body.is_dynamic().then(|| ExactState::new(moved, (moved.velocity, moved.angular_velocity), body));
     let (force, torque) = split_spatial(&record.pull);
     record.pull = stack_spatial(&(turn * force), &(turn * torque));
     (record.motion, record.place, record.next_place) = (None, None, None);
-    Ok(())
 }

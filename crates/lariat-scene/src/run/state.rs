@@ -12,6 +12,7 @@ use super::output::STATE;
 use crate::error::Error;
 use crate::physics::Physics;
 use crate::scene::Scene;
+use crate::text::read_text;
 use lariat_ancf::Cable;
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
@@ -70,7 +71,7 @@ impl State {
     /// [`Error::Read`]; [`Error::State`] for a file that is damaged, or of another version of the program.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(STATE);
-        let text = std::fs::read_to_string(&path).map_err(|source| Error::Read { path: path.clone(), source })?;
+        let text = read_text(&path)?;
         let wrong = |problem: &str| Error::State { problem: format!("{}: {problem}", path.display()) };
         let (head, body) = text.split_once('\n').ok_or_else(|| wrong("it is no state that `lariat static` wrote"))?;
         let head: Head = serde_json::from_str(head).map_err(|_| wrong("it is no state that `lariat static` wrote"))?;
