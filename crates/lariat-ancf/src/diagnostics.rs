@@ -39,8 +39,9 @@ pub struct Diagnostics {
     /// zero for a cable without limits.
     #[serde(default)]
     pub load_readings: u64,
-    /// Tests of whether pieces of a cable are near each other, other cables, obstacles and their edges and corners; those with cables are counted by the first one
-    /// of an island. Zero for a cable without contact.
+    /// Tests of whether pieces of a cable are near each other, other cables, obstacles and their
+    /// edges and corners; those with cables are counted by the first one of an island. Zero for a
+    /// cable without contact.
     #[serde(default)]
     pub search_tests: u64,
     /// Steps of the discrete gradient whose velocities were scaled down to keep its energy law.

@@ -182,15 +182,17 @@ impl CableBuilder {
         self
     }
 
-    /// Holds the position of a point where it starts, and its tangent in the direction of the polyline there: at the start along the
-    /// first of its segments, also if the cable is longer than drawn. A node is placed there. A slack cable starts in static
-    /// equilibrium between its clamps, under its weight, with free ends held where they are drawn.
+    /// Holds the position of a point where it starts, and its tangent in the direction of the
+    /// polyline there: at the start along the first of its segments, also if the cable is longer
+    /// than drawn. A node is placed there. A slack cable starts in static equilibrium between its
+    /// clamps, under its weight, with free ends held where they are drawn.
     pub fn clamp(mut self, at: impl Into<At>) -> Self {
         self.holds.push((at.into(), Hold::Clamp(None)));
         self
     }
 
-    /// As [`clamp`](Self::clamp), with the tangent along `direction` (any length), towards growing arc length.
+    /// As [`clamp`](Self::clamp), with the tangent along `direction` (any length), towards growing
+    /// arc length.
     pub fn clamp_along(mut self, at: impl Into<At>, direction: impl Into<Point>) -> Self {
         self.holds.push((at.into(), Hold::Clamp(Some(direction.into().0))));
         self
@@ -389,7 +391,8 @@ impl CableBuilder {
         Ok(kept)
     }
 
-    /// Returns the ends of a cable longer than drawn, of which `drawn` m are drawn; none if it is not.
+    /// Returns the ends of a cable longer than drawn, of which `drawn` m are drawn; none if it is
+    /// not.
     fn drawn_ends(&self, laid: &[Laid], s: &[f64], drawn: f64) -> Vec<Drawn> {
         let last = s.len() - 1;
         if s[last] <= drawn * (1.0 + SLACK) {

@@ -54,7 +54,8 @@ pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector
         .collect()
 }
 
-/// The directions of the drawing itself at the arc lengths `s`, as unit vectors; at a corner the mean of both sides.
+/// The directions of the drawing itself at the arc lengths `s`, as unit vectors; at a corner the
+/// mean of both sides.
 pub(super) fn directions(points: &[Vector3<f64>], s: &[f64]) -> Vec<Vector3<f64>> {
     let drawn: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
     let share = drawn / s[s.len() - 1];
@@ -62,8 +63,8 @@ pub(super) fn directions(points: &[Vector3<f64>], s: &[f64]) -> Vec<Vector3<f64>
     along_polyline(points, &s, Vector3::zeros()).iter().map(|laid| laid.slope.normalize()).collect()
 }
 
-/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an arc of a circle towards
-/// `sag` if that is not zero, else straight.
+/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an
+/// arc of a circle towards `sag` if that is not zero, else straight.
 fn segment(a: Vector3<f64>, b: Vector3<f64>, arc: f64, x: f64, sag: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let chord = b - a;
     let straight = (a + x * chord, chord / arc);

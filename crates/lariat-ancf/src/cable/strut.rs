@@ -2,25 +2,25 @@
 //!
 //! # Equation
 //!
-//! A straight line is in equilibrium under any compression, in exact arithmetic for ever. Beyond the
-//! Euler load it is unstable, and what grows from is whatever bends it. A cable that is straight to
-//! less than that, and whose mean compression is more than a free span of its whole length with one
-//! free end could bear,
+//! A straight line is in equilibrium under any compression, in exact arithmetic for ever. Beyond
+//! the Euler load it is unstable, and what grows from is whatever bends it. A cable that is
+//! straight to less than that, and whose mean compression is more than a free span of its whole
+//! length with one free end could bear,
 //!
 //! ```text
 //! N = -(1/L) sum_e EA eps_e l_e > pi^2 EI/(2 L)^2        r_i += a sum_(k = 1..8) sin(k pi s_i/L)/8 n        a = 2^-23 L
 //! ```
 //!
-//! is bent by `a`, which is the rounding of positions in single precision, in which hosts have them. The
-//! slopes are bent with it. What is held stays. n is normal to the cable: along x or y, the one that is
-//! less along the cable.
+//! is bent by `a`, which is the rounding of positions in single precision, in which hosts have
+//! them. The slopes are bent with it. What is held stays. n is normal to the cable: along x or y,
+//! the one that is less along the cable.
 //!
 //! # Validity
 //!
 //! Below the load of its own supports a bent cable straightens again, so the bend does nothing. It
-//! changes the energy by less than `2e-12 N L`. It is looked for when a step begins; a cable that is bent
-//! is left after its first elements. The mean is that of a half wave over the whole cable; waves of
-//! compression that run along a taut cable, whose mean is tension, do not bend it.
+//! changes the energy by less than `2e-12 N L`. It is looked for when a step begins; a cable that
+//! is bent is left after its first elements. The mean is that of a half wave over the whole cable;
+//! waves of compression that run along a taut cable, whose mean is tension, do not bend it.
 //!
 //! # References
 //!
@@ -28,8 +28,8 @@
 //!
 //! # Alternatives considered
 //!
-//! A law that cannot push ([`AxialLaw::Rope`](crate::AxialLaw::Rope)): it is there, for cables that the
-//! user calls ropes; rods push. A larger bend: it would make or take energy that is seen.
+//! A law that cannot push ([`AxialLaw::Rope`](crate::AxialLaw::Rope)): it is there, for cables that
+//! the user calls ropes; rods push. A larger bend: it would make or take energy that is seen.
 
 use super::Cable;
 use crate::scales::cable::{BEND, COMPRESSED, UNBENT, WAVES};

@@ -1,9 +1,11 @@
-//! What the contacts of a cable with bodies of its island add to the matrix of a step, beyond the cable's own part.
+//! What the contacts of a cable with bodies of its island add to the matrix of a step, beyond the
+//! cable's own part.
 //!
 //! # Equation
 //!
-//! A contact with the tangent G at the shape functions S of the cable and the arm y about the centre of the body sees the increments of
-//! the cable's coordinates and of the body's velocity and rotation as `S du - J dw`, J = (1, -[y]x). Of all contacts of a cable with one body
+//! A contact with the tangent G at the shape functions S of the cable and the arm y about the
+//! centre of the body sees the increments of the cable's coordinates and of the body's velocity and
+//! rotation as `S du - J dw`, J = (1, -[y]x). Of all contacts of a cable with one body
 //!
 //! ```text
 //! columns -sum S^T G J (six, however many contacts)        block sum J^T G J

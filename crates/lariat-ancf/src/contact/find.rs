@@ -1,10 +1,13 @@
-//! Where contacts are: samples on faces, closest points on features, found when a step begins and completed while it is iterated.
+//! Where contacts are: samples on faces, closest points on features, found when a step begins and
+//! completed while it is iterated.
 //!
 //! # Validity
 //!
-//! An element is looked at if the ball about its Bezier polygon, of a long one a part of its curve ([`tube`](super::tube)), grown by 1.5 times its way relative to the obstacle, comes near, and so is a feature. What a
-//! point cannot reach in the way that it moves (distances grow no faster than the way) is not looked at again; the rest is traced along its
-//! way to the surface, at every iterate.
+//! An element is looked at if the ball about its Bezier polygon, of a long one a part of its curve
+//! ([`tube`](super::tube)), grown by 1.5 times its way relative to the obstacle, comes near, and so
+//! is a feature. What a point cannot reach in the way that it moves (distances grow no faster than
+//! the way) is not looked at again; the rest is traced along its way to the surface, at every
+//! iterate.
 
 use super::motion::Motion;
 use super::nearby::Nearby;
@@ -152,7 +155,8 @@ impl ContactStep {
         self.points.push(point);
     }
 
-    /// Hands what a feature remembers of one element to its neighbour, where the closest point has moved over their node.
+    /// Hands what a feature remembers of one element to its neighbour, where the closest point has
+    /// moved over their node.
     fn hand_over(&mut self, memory: &[ContactMemory]) {
         for point in self.points.iter_mut().filter(|point| point.key.2 >= PLACES) {
             let (element, obstacle, place) = point.key;
@@ -173,7 +177,8 @@ impl ContactStep {
         }
     }
 
-    /// Adds samples that an iterate carries into an obstacle although they were not near, or on another way than expected.
+    /// Adds samples that an iterate carries into an obstacle although they were not near, or on
+    /// another way than expected.
     pub fn complete(&mut self, motion: &Motion<'_>) {
         let Motion { model, change, .. } = *motion;
         self.follow_closest(motion);
@@ -223,8 +228,9 @@ impl ContactPoint {
         self.obstacle == obstacle && (self.key.0 as usize).abs_diff(element) <= 1
     }
 
-    /// Returns whether it touches a patch at `y`. A sample that comes from beside a face is behind the face's plane before it is at the face: it would begin
-    /// deep there, where the contact of the edge holds it.
+    /// Returns whether it touches a patch at `y`. A sample that comes from beside a face is behind
+    /// the face's plane before it is at the face: it would begin deep there, where the contact of
+    /// the edge holds it.
     fn is_inside(&self, patch: &Patch, y: &Vector3<f64>) -> bool {
         patch.gap(y).0 < self.reach
     }
@@ -235,7 +241,8 @@ impl ContactPoint {
     }
 }
 
-/// Returns the patch of a feature at `y`, with the vector z to it from the core: where the memory is of the core's other side, the plane there.
+/// Returns the patch of a feature at `y`, with the vector z to it from the core: where the memory
+/// is of the core's other side, the plane there.
 pub(super) fn one_sided(patch: Patch, (y, z): (&Vector3<f64>, &Vector3<f64>), memory: Option<&ContactMemory>) -> Patch {
     match memory.filter(|memory| memory.normal.dot(z) < 0.0) {
         Some(memory) => Patch::Plane { point: y - z, normal: memory.normal },

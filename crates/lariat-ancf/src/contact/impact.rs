@@ -2,9 +2,11 @@
 //!
 //! # Equation
 //!
-//! A step ends with a contact that pushes at the surface, so its mean velocity is the way that was left: of a point that had the part s of
-//! the step to go, `v^ = s v0`, and the velocity at the end is `v1 = v0 (1 - (1 - s)/b)`, between `v0` and `-7/9 v0` by chance. It is no
-//! rebound, but the root of the one-leg formula. The contacts take it, all at once, by the impulses R on the cable and -R on what it touches:
+//! A step ends with a contact that pushes at the surface, so its mean velocity is the way that was
+//! left: of a point that had the part s of the step to go, `v^ = s v0`, and the velocity at the end
+//! is `v1 = v0 (1 - (1 - s)/b)`, between `v0` and `-7/9 v0` by chance. It is no rebound, but the
+//! root of the one-leg formula. The contacts take it, all at once, by the impulses R on the cable
+//! and -R on what it touches:
 //!
 //! ```text
 //! (S + sum G) w = sum (G (v1 - u n) + l f_t/f_n)      v1 <- v1 - w,   D v <- D v - w
@@ -12,13 +14,16 @@
 //! -R = G (v1 - w - u n) + l f_t/f_n                   the last term only where it slips
 //! ```
 //!
-//! v1 is relative to the obstacle, `u = e max(0, -n . v0)` what Newton's coefficient of restitution e leaves of the velocity v0 with which a contact came, until it
-//! comes again. Until it leaves, an impact also gives what lacks of u, with the velocity at the beginning of the step if that is less; then it only takes what is
-//! more, so that what lies stays. What G is too soft to
-//! give is added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is the
-//! tangent of friction, S the step matrix without contacts; the sum is the matrix that the last iteration factored. So an impulse spreads through cable and bodies as those of the step did. Where a contact slips, the friction of the impulse that is taken
-//! back goes with it, with l of a first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of contacts that a
-//! step does not resolve is taken, and that of others left.
+//! v1 is relative to the obstacle, `u = e max(0, -n . v0)` what Newton's coefficient of restitution
+//! e leaves of the velocity v0 with which a contact came, until it comes again. Until it leaves, an
+//! impact also gives what lacks of u, with the velocity at the beginning of the step if that is
+//! less; then it only takes what is more, so that what lies stays. What G is too soft to give is
+//! added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is the
+//! tangent of friction, S the step matrix without contacts; the sum is the matrix that the last
+//! iteration factored. So an impulse spreads through cable and bodies as those of the step did.
+//! Where a contact slips, the friction of the impulse that is taken back goes with it, with l of a
+//! first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of
+//! contacts that a step does not resolve is taken, and that of others left.
 //!
 //! The energy of motion and of the store change by
 //!
@@ -26,26 +31,31 @@
 //! D H = -s P + s^2 E,     P = w . M (v1 + a D v),   E = (1 + a)/2 w . M w,   W = sum R . v_o
 //! ```
 //!
-//! where the share s is 1, or the largest for which `D H <= s W + lost`: an impact makes no energy but the work W of obstacles that move, and what contacts lost in the
-//! step itself, since friction of what is taken back did not act; one that gives velocity may also use what the step lost numerically. So H does not rise over the step.
-//! Momentum is kept, since the impulses on cable and body are opposite and on one line.
+//! where the share s is 1, or the largest for which `D H <= s W + lost`: an impact makes no energy
+//! but the work W of obstacles that move, and what contacts lost in the step itself, since friction
+//! of what is taken back did not act; one that gives velocity may also use what the step lost
+//! numerically. So H does not rise over the step. Momentum is kept, since the impulses on cable and
+//! body are opposite and on one line.
 //!
 //! # Validity
 //!
-//! Restitution of contacts with obstacles and bodies up to `(1 - a)/(1 + a) = 15/17`: with more a mass that leaves has more of H than it came with, for H holds the
-//! store of its jump of velocity, `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other ([`pairs`](super::pairs)) it is 0. Steps of which
-//! the velocity across contacts has less energy than the tolerance of the law take none, and do no work for it.
+//! Restitution of contacts with obstacles and bodies up to `(1 - a)/(1 + a) = 15/17`: with more a
+//! mass that leaves has more of H than it came with, for H holds the store of its jump of velocity,
+//! `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other ([`pairs`](super::pairs)) it is 0. Steps
+//! of which the velocity across contacts has less energy than the tolerance of the law take none,
+//! and do no work for it.
 //!
 //! # References
 //!
-//! Gear, Leimkuhler & Gupta, J. Comput. Appl. Math. 12 (1985) 77 (constraints of velocities beside those of positions); Moreau, in
-//! Nonsmooth Mechanics and Applications, 1988 (inelastic impact as a projection, Newton's law of restitution); Simo & Laursen, Comput. Struct. 42 (1992) 97 (augmented
-//! Lagrangian).
+//! Gear, Leimkuhler & Gupta, J. Comput. Appl. Math. 12 (1985) 77 (constraints of velocities beside
+//! those of positions); Moreau, in Nonsmooth Mechanics and Applications, 1988 (inelastic impact as
+//! a projection, Newton's law of restitution); Simo & Laursen, Comput. Struct. 42 (1992) 97
+//! (augmented Lagrangian).
 //!
 //! # Alternatives considered
 //!
-//! The projection in the norm of the mass alone: it takes the velocity of an element of a bar that lands on its end, and the bar
-//! throws it up again.
+//! The projection in the norm of the mass alone: it takes the velocity of an element of a bar that
+//! lands on its end, and the bar throws it up again.
 
 use super::impulse::Impact;
 use super::point::ContactPoint;
@@ -78,8 +88,10 @@ impl ContactPoint {
         self.impact.gain = 0.0;
     }
 
-    /// Finds its impact along a normal, at a velocity beside an obstacle with a velocity of its own (m/s), and returns the energy in J of what it opposes: 0 if it
-    /// does not leave. `came` is the speed across it when the step began, 0 without restitution; `h` is the length of the step, `mass` that per length.
+    /// Finds its impact along a normal, at a velocity beside an obstacle with a velocity of its own
+    /// (m/s), and returns the energy in J of what it opposes: 0 if it does not leave. `came` is the
+    /// speed across it when the step began, 0 without restitution; `h` is the length of the step,
+    /// `mass` that per length.
     pub fn find_impact(
         &mut self,
         normal: Vector3<f64>,
@@ -111,8 +123,9 @@ impl ContactPoint {
         0.5 * mass * weight * over * over
     }
 
-    /// Sets its impulse to that of the velocity that is left if `taken` is taken (m/s); returns whether another solve sees more of it: the friction of
-    /// what is taken back, or that a contact does not pull.
+    /// Sets its impulse to that of the velocity that is left if `taken` is taken (m/s); returns
+    /// whether another solve sees more of it: the friction of what is taken back, or that a contact
+    /// does not pull.
     pub fn settle_impact(&mut self, taken: &Vector3<f64>, h: f64) -> bool {
         let (now, impact) = (&self.now, &mut self.impact);
         let left = impact.beside - taken;
@@ -138,8 +151,9 @@ impl ContactPoint {
 }
 
 impl ContactStep {
-    /// Finds the velocities beside contacts that push, at the end of the step, and returns the energy in J of those that they oppose. `mass` is that of
-    /// an element per length, `velocity` that of a point of an element, `body` that of a body at an arm about its centre, each when
+    /// Finds the velocities beside contacts that push, at the end of the step, and returns the
+    /// energy in J of those that they oppose. `mass` is that of an element per length, `velocity`
+    /// that of a point of an element, `body` that of a body at an arm about its centre, each when
     /// the step begins or ends.
     pub fn find_impacts(
         &mut self,
@@ -175,7 +189,8 @@ impl ContactStep {
         self.points.iter().any(|point| point.impact.acts() && point.impact.gives)
     }
 
-    /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those of bodies.
+    /// Adds what the linear solve sees of them to the rows of the cable, and its opposite to those
+    /// of bodies.
     pub fn pass_impacts(&self, rhs: &mut [f64], rows: &mut [f64]) {
         for point in self.points.iter().filter(|point| point.impact.acts()) {
             add_force(rhs, point.key.0 as usize, &point.shape, &point.impact.row);
@@ -189,8 +204,8 @@ impl ContactStep {
         }
     }
 
-    /// Sets the impulses to those of the velocities that are left; `taken` and `of_body` are the changes of velocities by the linear solve. Returns
-    /// whether another solve sees more of them.
+    /// Sets the impulses to those of the velocities that are left; `taken` and `of_body` are the
+    /// changes of velocities by the linear solve. Returns whether another solve sees more of them.
     pub fn settle_impacts(
         &mut self,
         taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>,
@@ -206,7 +221,8 @@ impl ContactStep {
         changed
     }
 
-    /// Returns the work W in J of obstacles that move as prescribed; `taken` are the changes of velocities by the last solve.
+    /// Returns the work W in J of obstacles that move as prescribed; `taken` are the changes of
+    /// velocities by the last solve.
     pub fn work_of_impacts(&self, taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) -> f64 {
         let pushing = self.points.iter().filter(|point| point.impact.acts());
         let prescribed = pushing.filter(|point| self.obstacles[point.obstacle].driven);

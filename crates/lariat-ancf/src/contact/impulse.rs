@@ -1,4 +1,5 @@
-//! What a contact does to the velocity across it when a step ends. Equation: [`impact`](super::impact).
+//! What a contact does to the velocity across it when a step ends. Equation:
+//! [`impact`](super::impact).
 
 use nalgebra::{Matrix3, Vector3};
 

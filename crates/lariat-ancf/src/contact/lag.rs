@@ -2,26 +2,32 @@
 //!
 //! # Equation
 //!
-//! The bound of friction is first `c = mu N0`, N0 that of the last step; zero in a first touch. When the iteration has ended with N,
+//! The bound of friction is first `c = mu N0`, N0 that of the last step; zero in a first touch.
+//! When the iteration has ended with N,
 //!
 //! ```text
 //! L = sum |mu N - c| (slipping) + sum (|f| - mu N)+ (sticking)
 //! L <= 0.003 sum mu N    or    h L <= 0.001 of the impulses of the step without those of contacts        else c := mu N, and it goes on
 //! ```
 //!
-//! A bound that misses mu N leaves the impulse `h (mu N - c)` out of the balance. Where that is little beside inertia, loads and supports, the
-//! motion does not see it: a net that carries a ball need not know its friction on it to 0.003.
+//! A bound that misses mu N leaves the impulse `h (mu N - c)` out of the balance. Where that is
+//! little beside inertia, loads and supports, the motion does not see it: a net that carries a ball
+//! need not know its friction on it to 0.003.
 //!
-//! Return mapping loses energy for any bound, so the energy law holds for each of them. Along a rope on a drum the bounds determine the tensions one after the
-//! other, so the sequence ends after as many rounds as there are contacts, and its error after k of them is that of Taylor's series of `exp(mu phi)`.
+//! Return mapping loses energy for any bound, so the energy law holds for each of them. Along a
+//! rope on a drum the bounds determine the tensions one after the other, so the sequence ends after
+//! as many rounds as there are contacts, and its error after k of them is that of Taylor's series
+//! of `exp(mu phi)`.
 //!
-//! h N is the impulse of the step, that of an impact too: a rope that falls on a floor while it moves along it loses the speed `mu v`, v that of the fall, and one
-//! that is put on a slope below the angle of friction stays.
+//! h N is the impulse of the step, that of an impact too: a rope that falls on a floor while it
+//! moves along it loses the speed `mu v`, v that of the fall, and one that is put on a slope below
+//! the angle of friction stays.
 //!
 //! # Validity
 //!
-//! Contacts with obstacles; between cables the bound is that of the last step. Friction of the first touch acts over the whole step, although the cable touches in a part of it. Forty rounds are taken at most; steps
-//! that need more are [counted](crate::Diagnostics::lagging_steps).
+//! Contacts with obstacles; between cables the bound is that of the last step. Friction of the
+//! first touch acts over the whole step, although the cable touches in a part of it. Forty rounds
+//! are taken at most; steps that need more are [counted](crate::Diagnostics::lagging_steps).
 //!
 //! # Alternatives considered
 //!
@@ -31,7 +37,8 @@ use super::step::ContactStep;
 use crate::scales::contact::LAG;
 
 impl ContactStep {
-    /// Returns the sum in N by which friction misses its bounds by the normal forces of the present iterate, and notes whether that is much.
+    /// Returns the sum in N by which friction misses its bounds by the normal forces of the present
+    /// iterate, and notes whether that is much.
     pub fn find_lag(&mut self) -> f64 {
         let (mut missed, mut all) = (0.0, 0.0);
         for point in self.points.iter().filter(|point| point.friction > 0.0) {
@@ -46,7 +53,8 @@ impl ContactStep {
         missed
     }
 
-    /// Sets the bounds of friction by the normal forces of the present iterate, if they miss them much.
+    /// Sets the bounds of friction by the normal forces of the present iterate, if they miss them
+    /// much.
     pub fn renew_friction(&mut self) {
         for point in self.points.iter_mut().filter(|point| self.lags && point.friction > 0.0) {
             point.bound = (point.friction * point.now.normal_force).max(f64::MIN_POSITIVE);

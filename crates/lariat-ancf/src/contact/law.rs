@@ -7,8 +7,8 @@
 //! t = u0 + s;  k_t |t| <= c: u = t, else u = c/k_t t/|t|;   f = -k_t u           k_t = k w/10
 //! ```
 //!
-//! c is the bound of friction. The tangents `-df/ds` are `k_t P` while it sticks and `c k_t/|k_t t| (P - e e^T)` while it slips: both
-//! positive semi-definite.
+//! c is the bound of friction. The tangents `-df/ds` are `k_t P` while it sticks and `c k_t/|k_t t|
+//! (P - e e^T)` while it slips: both positive semi-definite.
 
 use crate::effect::Contact;
 use crate::scales::contact::{RAMP, TANGENTIAL};
@@ -43,7 +43,8 @@ impl NormalLaw {
         NormalLaw { stiffness, ramp: RAMP * radius }
     }
 
-    /// Returns the law that is so soft and smooth that `force` per length (N/m) has `depth` (m); itself if it is as soft.
+    /// Returns the law that is so soft and smooth that `force` per length (N/m) has `depth` (m);
+    /// itself if it is as soft.
     pub(in crate::contact) fn softened(self, force: f64, depth: f64) -> Self {
         let stiffness = force / depth;
         if stiffness < self.stiffness { NormalLaw { stiffness, ramp: depth.max(self.ramp) } } else { self }
@@ -92,8 +93,9 @@ pub(in crate::contact) struct Friction {
     pub loss: f64,
 }
 
-/// Returns friction with the bound `bound` (N) on a surface with the unit normal `normal`, for a contact of the normal stiffness `stiffness` (N/m);
-/// `before` is the spring at the beginning (m), `slip` the motion beside the surface. With `sticks` the bound is ignored.
+/// Returns friction with the bound `bound` (N) on a surface with the unit normal `normal`, for a
+/// contact of the normal stiffness `stiffness` (N/m); `before` is the spring at the beginning (m),
+/// `slip` the motion beside the surface. With `sticks` the bound is ignored.
 #[inline]
 pub(in crate::contact) fn friction(
     stiffness: f64,
@@ -117,7 +119,8 @@ pub(in crate::contact) fn friction(
 }
 
 impl Friction {
-    /// Returns minus the derivative of the force by the slip, on a surface with the unit normal `normal`.
+    /// Returns minus the derivative of the force by the slip, on a surface with the unit normal
+    /// `normal`.
     pub fn tangent(&self, normal: &Vector3<f64>) -> Matrix3<f64> {
         let mut plane = Matrix3::identity() - normal * normal.transpose();
         if let Some(e) = self.slides {
@@ -136,7 +139,8 @@ pub(in crate::contact) fn spring_energy(stiffness: f64, spring: &Vector3<f64>) -
 mod tests {
     use super::*;
 
-    /// Force and slope are the derivatives of energy and force, and the depth of a force is the inverse.
+    /// Force and slope are the derivatives of energy and force, and the depth of a force is the
+    /// inverse.
     ///
     /// *Source.* Central differences.
     #[test]
@@ -152,8 +156,8 @@ mod tests {
         assert_eq!(law.at(-1e-3), Pressure { force: 0.0, slope: 0.0, energy: 0.0 });
     }
 
-    /// The tangents of stick and slip are the derivatives of the force, friction stays within its bound, and it loses energy for any bound and
-    /// any slip.
+    /// The tangents of stick and slip are the derivatives of the force, friction stays within its
+    /// bound, and it loses energy for any bound and any slip.
     ///
     /// *Source.* Central differences; the definition.
     #[test]

@@ -35,8 +35,8 @@ pub(in crate::contact) struct Linear {
 /// How a contact is made linear.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::contact) struct About {
-    /// The depth that belongs to the force that the last linear solve gave: on the quadratic start of the law, Newton's iteration about the
-    /// depth itself only halves it.
+    /// The depth that belongs to the force that the last linear solve gave: on the quadratic start
+    /// of the law, Newton's iteration about the depth itself only halves it.
     pub depth: Option<f64>,
     /// As if it stuck, because the direction of slip turned round: the solution lies between.
     pub sticks: bool,

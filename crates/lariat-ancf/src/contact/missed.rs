@@ -2,20 +2,23 @@
 //!
 //! # Equation
 //!
-//! Whether an element touches a feature is found from the predicted motion (pair.rs). Where the motion turns out otherwise, one that has no contact
-//! may be inside the feature when the iteration ends, deeper than the contacts of its neighbours are:
+//! Whether an element touches a feature is found from the predicted motion (pair.rs). Where the
+//! motion turns out otherwise, one that has no contact may be inside the feature when the iteration
+//! ends, deeper than the contacts of its neighbours are:
 //!
 //! ```text
 //! r - g(S(xi) (q + D q)) > max over contacts of d + 0.02 r        at the xi nearest to the feature at the end of the step
 //! ```
 //!
-//! Then this point becomes a contact too, and the iteration goes on. An element that went through the core of a feature, a segment, is beyond
-//! that: its chords and the segment meet as those of two cables do (pairs/crossing.rs), and the step is divided.
+//! Then this point becomes a contact too, and the iteration goes on. An element that went through
+//! the core of a feature, a segment, is beyond that: its chords and the segment meet as those of
+//! two cables do (pairs/crossing.rs), and the step is divided.
 //!
 //! # Validity
 //!
-//! A contact is added up to three times per step; what is inside then is inside in the next step, too, and its depth an offset. Balls and circles are
-//! not asked whether an element went through them.
+//! A contact is added up to three times per step; what is inside then is inside in the next step,
+//! too, and its depth an offset. Balls and circles are not asked whether an element went through
+//! them.
 
 use super::motion::Motion;
 use super::nearby::Nearby;
@@ -29,8 +32,8 @@ use crate::scales::contact::{CHORDS, RAMP};
 use nalgebra::Vector3;
 
 impl ContactStep {
-    /// Adds the points that are inside a feature at the end of an iterate, deeper than the contacts of their elements; returns whether there are
-    /// any.
+    /// Adds the points that are inside a feature at the end of an iterate, deeper than the contacts
+    /// of their elements; returns whether there are any.
     pub fn add_missed(&mut self, motion: &Motion<'_>) -> bool {
         let known = self.points.len();
         for i in 0..self.nearby.len() {
@@ -59,7 +62,8 @@ impl ContactStep {
         self.missed
     }
 
-    /// Returns whether an element went through the core of a feature, or slid so fast over a round surface that the plane of a contact braked it.
+    /// Returns whether an element went through the core of a feature, or slid so fast over a round
+    /// surface that the plane of a contact braked it.
     pub fn passes(&mut self, motion: &Motion<'_>) -> bool {
         let brakes = |point: &ContactPoint| point.remembered > 0.0 && point.now.replaced;
         self.passed = self.points.iter().any(brakes)
@@ -90,7 +94,8 @@ impl ContactStep {
     }
 }
 
-/// Returns whether chords of an element go through a segment of an obstacle, in the obstacle's axes.
+/// Returns whether chords of an element go through a segment of an obstacle, in the obstacle's
+/// axes.
 fn goes_through(pair: &Pair<'_>, segment: [Vector3<f64>; 2]) -> bool {
     let step: &ObstacleStep = &pair.step;
     let at = |i: usize| {

@@ -12,7 +12,8 @@ pub(super) struct Nearby {
     /// Number of the obstacle.
     pub obstacle: usize,
     pub feature: Feature,
-    /// Element, where it begins, and local coordinate of the point that is closest when the step begins; `None` until it is asked for.
+    /// Element, where it begins, and local coordinate of the point that is closest when the step
+    /// begins; `None` until it is asked for.
     pub start: Option<Option<(usize, f64, f64)>>,
 }
 

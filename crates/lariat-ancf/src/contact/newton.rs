@@ -2,9 +2,11 @@
 //!
 //! # Equation
 //!
-//! The normal force is linear about the depth that belongs to the force of the last solve, and its tangent `w p' m m^T`, `m = (gbar + n1)/2`, is symmetric:
-//! the force acts along the mean normal gbar, and its depth changes along n1, that of the end. Of a contact that acts between two closest points
-//! ([`slide`](super::slide)) the row is half way between its place and the one whose depth counts, for the same reason.
+//! The normal force is linear about the depth that belongs to the force of the last solve, and its
+//! tangent `w p' m m^T`, `m = (gbar + n1)/2`, is symmetric: the force acts along the mean normal
+//! gbar, and its depth changes along n1, that of the end. Of a contact that acts between two
+//! closest points ([`slide`](super::slide)) the row is half way between its place and the one whose
+//! depth counts, for the same reason.
 
 use super::evaluation::Evaluation;
 use super::linear::{About, Linear, Tangents};

@@ -16,8 +16,9 @@ use crate::section::Element;
 use crate::state::Key;
 use nalgebra::Vector3;
 
-/// Coefficient: the points of Lobatto's rule (five, exact to degree seven) with their shares of the length of an element. The last is the first of the next element: only
-/// the last element of a cable has its own.
+/// Coefficient: the points of Lobatto's rule (five, exact to degree seven) with their shares of the
+/// length of an element. The last is the first of the next element: only the last element of a
+/// cable has its own.
 const SAMPLES: [(f64, f64); 5] = [
     (0.0, 1.0 / 20.0),
     (0.172_673_164_646_011_43, 49.0 / 180.0),
@@ -28,8 +29,8 @@ const SAMPLES: [(f64, f64); 5] = [
 /// Layout: number of samples of an element: features are numbered behind them.
 pub(super) const PLACES: u32 = SAMPLES.len() as u32;
 
-/// Returns the samples of an element: number, local coordinate, and the length that it stands for. A node stands for parts of both of its elements, that of the one
-/// before by its stiffness.
+/// Returns the samples of an element: number, local coordinate, and the length that it stands for.
+/// A node stands for parts of both of its elements, that of the one before by its stiffness.
 pub(super) fn samples(contact: &Contact, model: &Model, element: usize) -> impl Iterator<Item = (u32, f64, f64)> {
     let elements = &model.elements;
     let own = elements[element];
@@ -44,7 +45,8 @@ pub(super) fn samples(contact: &Contact, model: &Model, element: usize) -> impl 
     })
 }
 
-/// Returns the local coordinates a quarter, half and three quarters of the way between the samples of an element: half way alone may be where a line turns that is deep on one side of it.
+/// Returns the local coordinates a quarter, half and three quarters of the way between the samples
+/// of an element: half way alone may be where a line turns that is deep on one side of it.
 pub(crate) fn between_samples() -> impl Iterator<Item = f64> {
     let shares = [0.25, 0.5, 0.75];
     SAMPLES.windows(2).flat_map(move |pair| shares.map(|share| pair[0].0 + share * (pair[1].0 - pair[0].0)))
@@ -121,8 +123,9 @@ impl Pair<'_> {
         y0 + (y1 - y0) * share
     }
 
-    /// Returns the share of the step at which the element comes to a feature that it meets on its way: found by distances, which change no faster than
-    /// the element moves. The end of the step if it moves less than it reaches, begins within reach, or does not meet it.
+    /// Returns the share of the step at which the element comes to a feature that it meets on its
+    /// way: found by distances, which change no faster than the element moves. The end of the step
+    /// if it moves less than it reaches, begins within reach, or does not meet it.
     pub fn meeting(&self, feature: &Feature) -> f64 {
         let reach = self.radius + self.obstacle.skin + feature.radius;
         let places: [f64; INTERVALS + 1] = core::array::from_fn(|i| i as f64 / INTERVALS as f64);
@@ -150,14 +153,17 @@ impl Pair<'_> {
         1.0
     }
 
-    /// Returns the local coordinate of the point of the element that is closest to a feature at a share of the step: at the end, as far as that is
-    /// known, where the element moves slowly; the closest point at the beginning would slide off, and the cable sink in behind it. A node
-    /// belongs to the element behind it, so that each minimum of the distance along the cable is found once.
+    /// Returns the local coordinate of the point of the element that is closest to a feature at a
+    /// share of the step: at the end, as far as that is known, where the element moves slowly; the
+    /// closest point at the beginning would slide off, and the cable sink in behind it. A node
+    /// belongs to the element behind it, so that each minimum of the distance along the cable is
+    /// found once.
     pub fn closest(&self, feature: &Feature, share: f64) -> Option<f64> {
         let (Motion { q, change, .. }, e) = (self.motion, self.element);
         let [start, end] = [&self.step.start, &self.step.end];
         let distance = |xi: f64| feature.distance_squared(&self.at(xi, share));
-        // growth of the distance along the cable at a node, from the node alone: the same number for both of its elements
+        // growth of the distance along the cable at a node, from the node alone: the same number
+        // for both of its elements
         let growth = |node: usize| {
             let first = |x: usize| Vector3::from_column_slice(&q[6 * node + x..6 * node + x + 3]);
             let last = |x: usize| first(x) + Vector3::from_column_slice(&change[6 * node + x..6 * node + x + 3]);
@@ -208,7 +214,8 @@ pub(super) fn is_thin(found: &Nearest, radius: f64, length: f64) -> bool {
     found.feature && found.patch.radius().is_some_and(|own| !is_wide(own, radius, length))
 }
 
-/// Returns the centre and the radius of a ball about an element, and its largest way in the first iterate.
+/// Returns the centre and the radius of a ball about an element, and its largest way in the first
+/// iterate.
 pub(super) fn bounding_ball(motion: &Motion<'_>, element: usize, length: f64) -> (Vector3<f64>, f64, f64) {
     let corners = |x: &[f64]| {
         let d: [Vector3<f64>; 4] =

@@ -1,4 +1,5 @@
-//! Patches: what the surface of an obstacle looks like from a point of the cable, for the time of a step.
+//! Patches: what the surface of an obstacle looks like from a point of the cable, for the time of a
+//! step.
 //!
 //! # Equation
 //!
@@ -8,10 +9,12 @@
 //! line          g = |z| - R                gbar = 2 (y_m - s_m a_m)/(|z0| + |z1|)       z = y - s a, s = a . y
 //! ```
 //!
-//! with y from a point of the patch, its axis a, and means over both ends; so `gbar . s = g1 - g0` exactly, s the motion beside the
-//! obstacle ([`path`](super::path)), which may turn. If z turns by more than 20 degrees in a step, on a way that goes deeper than half the reach, the patch
-//! is for this step the plane that touches it where the way of the point meets it: the distance from a line alone would let a point pass through it.
-//! A point that slides would be braked there: the step of one that touched before is divided.
+//! with y from a point of the patch, its axis a, and means over both ends; so `gbar . s = g1 - g0`
+//! exactly, s the motion beside the obstacle ([`path`](super::path)), which may turn. If z turns by
+//! more than 20 degrees in a step, on a way that goes deeper than half the reach, the patch is for
+//! this step the plane that touches it where the way of the point meets it: the distance from a
+//! line alone would let a point pass through it. A point that slides would be braked there: the
+//! step of one that touched before is divided.
 
 use super::path::ObstacleStep;
 use crate::obstacle::Patch;
@@ -34,8 +37,8 @@ pub(in crate::contact) struct GapStep {
 }
 
 impl Patch {
-    /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met at the gap `reach`; without
-    /// one the way is not asked whether it goes through.
+    /// Returns the gap over a step in which the point at `x` moves by `change`; the surface is met
+    /// at the gap `reach`; without one the way is not asked whether it goes through.
     #[inline]
     pub(in crate::contact) fn over_step(
         &self,
@@ -66,7 +69,8 @@ impl Patch {
     }
 }
 
-/// Returns the gap |z| - R over a step; `half` times the relative motion is half the change of |z|^2.
+/// Returns the gap |z| - R over a step; `half` times the relative motion is half the change of
+/// |z|^2.
 fn radial(
     [z0, z1]: [Vector3<f64>; 2],
     half: Vector3<f64>,
@@ -104,7 +108,8 @@ fn least(z0: &Vector3<f64>, z1: &Vector3<f64>) -> f64 {
     (z0 + way * share).norm()
 }
 
-/// Returns the normal where the way from z0 to z1 meets the distance `reach`, that at z0 if it begins within; `None` if it passes by.
+/// Returns the normal where the way from z0 to z1 meets the distance `reach`, that at z0 if it
+/// begins within; `None` if it passes by.
 fn meets(z0: &Vector3<f64>, z1: &Vector3<f64>, l0: f64, reach: f64) -> Option<Vector3<f64>> {
     if l0 <= reach {
         return (l0 > 0.0).then(|| z0 / l0);
@@ -133,7 +138,8 @@ mod tests {
         ]
     }
 
-    /// The mean normal times the relative motion is the change of the gap, exactly, and the end is that of the patch's own distance.
+    /// The mean normal times the relative motion is the change of the gap, exactly, and the end is
+    /// that of the patch's own distance.
     ///
     /// *Source.* The distances |z| - R and n . z by their formulas.
     #[test]
@@ -162,7 +168,8 @@ mod tests {
         }
     }
 
-    /// A drum that turns about its axis does not move the gap; a ball that turns about its centre neither.
+    /// A drum that turns about its axis does not move the gap; a ball that turns about its centre
+    /// neither.
     ///
     /// *Source.* Symmetry.
     #[test]
@@ -178,7 +185,8 @@ mod tests {
         }
     }
 
-    /// A point that is carried through a thin rod in one step is behind it, not beside it; one that passes by is not.
+    /// A point that is carried through a thin rod in one step is behind it, not beside it; one that
+    /// passes by is not.
     ///
     /// *Source.* Geometry.
     #[test]

@@ -2,15 +2,17 @@
 //!
 //! # Equation
 //!
-//! The obstacle turns from R0 to R1 by the Cayley map of a vector 2 a: `R1 b - R0 b = 2 a x (R0 b + R1 b)/2`. Beside it, with the place
-//! `y = x - c` from a material point c of it, the point x moves by
+//! The obstacle turns from R0 to R1 by the Cayley map of a vector 2 a: `R1 b - R0 b = 2 a x (R0 b +
+//! R1 b)/2`. Beside it, with the place `y = x - c` from a material point c of it, the point x moves
+//! by
 //!
 //! ```text
 //! s = D y - 2 a x y_m,    y_m = (y0 + y1)/2
 //! ```
 //!
-//! for any choice of c. This is what a force f on the cable and -f on the obstacle work on if -f acts on the line through x, with the moment
-//! `-y_m x f` about c; so momentum and angular momentum are kept. Invariants of the relative place change by products with s, exactly:
+//! for any choice of c. This is what a force f on the cable and -f on the obstacle work on if -f
+//! acts on the line through x, with the moment `-y_m x f` about c; so momentum and angular momentum
+//! are kept. Invariants of the relative place change by products with s, exactly:
 //!
 //! ```text
 //! D (n . y) = n_m . s        D |y|^2 = 2 y_m . s        n carried by the obstacle, n_m = (n0 + n1)/2
@@ -18,7 +20,8 @@
 //!
 //! # References
 //!
-//! Gonzalez, J. Nonlinear Sci. 6 (1996) 449 (discrete gradients of invariants); Simo & Wong, IJNME 31 (1991) 19.
+//! Gonzalez, J. Nonlinear Sci. 6 (1996) 449 (discrete gradients of invariants); Simo & Wong, IJNME
+//! 31 (1991) 19.
 
 use crate::obstacle::{Mount, Pose, RigidMotion};
 use crate::scales::contact::MAX_HALF_TURN;
@@ -56,7 +59,8 @@ pub(in crate::contact) struct ObstacleStep {
     turn: Matrix3<f64>,
     /// Whether the axes turn.
     turns: bool,
-    /// Prescribed velocity of that point and angular velocity, at the end; zero if a body carries it.
+    /// Prescribed velocity of that point and angular velocity, at the end; zero if a body carries
+    /// it.
     velocity: [Vector3<f64>; 2],
     /// Whether its motion is prescribed, and not rest.
     pub driven: bool,
@@ -129,7 +133,8 @@ impl ObstacleStep {
         self.shift.norm() + 2.0 * self.half.norm() * ((x - self.centre[1]).norm() + distance)
     }
 
-    /// Returns vectors in the world's axes from one of its points to a point of the cable, at both ends.
+    /// Returns vectors in the world's axes from one of its points to a point of the cable, at both
+    /// ends.
     #[inline]
     pub fn beside(&self, own: &Vector3<f64>, x: &Vector3<f64>, change: &Vector3<f64>) -> [Vector3<f64>; 2] {
         let y0 = x - self.start.position - self.start.rotation * own;
@@ -143,17 +148,20 @@ impl ObstacleStep {
         [start, if self.turns { self.end.rotation * own } else { start }]
     }
 
-    /// Returns what a vector in the world's axes at the beginning becomes if the obstacle carries it.
+    /// Returns what a vector in the world's axes at the beginning becomes if the obstacle carries
+    /// it.
     pub fn carry(&self, start: &Vector3<f64>) -> Vector3<f64> {
         if self.turns { self.end.rotation * self.start.rotation.tr_mul(start) } else { *start }
     }
 
-    /// Returns the mean place y_m of a point of the cable beside the material point c: of a body, its centre of mass.
+    /// Returns the mean place y_m of a point of the cable beside the material point c: of a body,
+    /// its centre of mass.
     pub fn arm(&self, x: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
         x - self.centre[1] + 0.5 * (change - self.shift)
     }
 
-    /// Returns its prescribed velocity in m/s at the end of the step, at an arm from the material point c.
+    /// Returns its prescribed velocity in m/s at the end of the step, at an arm from the material
+    /// point c.
     pub fn velocity_at(&self, arm: &Vector3<f64>) -> Vector3<f64> {
         self.velocity[0] + self.velocity[1].cross(arm)
     }
@@ -170,7 +178,8 @@ impl ObstacleStep {
 mod tests {
     use super::*;
 
-    /// The products of the relative motion with mean vectors are the changes of the invariants, for a body and for a prescribed motion.
+    /// The products of the relative motion with mean vectors are the changes of the invariants, for
+    /// a body and for a prescribed motion.
     ///
     /// *Source.* The invariants at both ends, by the poses.
     #[test]

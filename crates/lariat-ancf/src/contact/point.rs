@@ -27,7 +27,8 @@ pub(in crate::contact) struct ContactPoint {
     pub friction: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
-    /// Speed in m/s across it with which the cable came when it first touched, negative once it leaves; 0 without restitution, and if it comes again.
+    /// Speed in m/s across it with which the cable came when it first touched, negative once it
+    /// leaves; 0 without restitution, and if it comes again.
     pub came: f64,
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
@@ -56,7 +57,8 @@ pub(in crate::contact) struct ContactPoint {
     pub bound: f64,
     /// Whether that is the bound of the present step.
     pub renewed: bool,
-    /// Distance in m by which it may move beside the obstacle without touching it: the gap of a patch changes no faster than that.
+    /// Distance in m by which it may move beside the obstacle without touching it: the gap of a
+    /// patch changes no faster than that.
     pub free_way: f64,
     /// Number of the feature that it touches among those that are near.
     pub nearby: Option<usize>,
@@ -75,8 +77,9 @@ pub(in crate::contact) struct ContactPoint {
 }
 
 impl ContactPoint {
-    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth, beyond which nothing counts: the offset. Of an
-    /// obstacle on a body that was moved since then, by an engine, the difference has either sign, and closes by the engine's work.
+    /// Takes up what was remembered of it: the spring and the bound of friction, and the depth,
+    /// beyond which nothing counts: the offset. Of an obstacle on a body that was moved since then,
+    /// by an engine, the difference has either sign, and closes by the engine's work.
     pub fn recall(&mut self, y: &Vector3<f64>, obstacle: &ObstacleStep, memory: Option<&ContactMemory>) {
         let depth = self.depth_at(self.patch.gap(y).0);
         self.depth_before = depth;
@@ -102,7 +105,8 @@ impl ContactPoint {
         self.reach + self.between.map_or(0.0, |between| between.excess) - gap
     }
 
-    /// Returns the energy in J that it would cost to close the offset, under the force of the last step.
+    /// Returns the energy in J that it would cost to close the offset, under the force of the last
+    /// step.
     pub fn cost(&self) -> f64 {
         self.remembered * self.offset
     }
@@ -130,7 +134,8 @@ impl ContactPoint {
         combine(change, self.key.0 as usize, &self.shape)
     }
 
-    /// Evaluates it for a change of its position over the step, and sets its tangents, which are zero, if they are asked for.
+    /// Evaluates it for a change of its position over the step, and sets its tangents, which are
+    /// zero, if they are asked for.
     pub fn evaluate(
         &self,
         obstacle: &ObstacleStep,

@@ -1,29 +1,36 @@
-//! Contacts with thin and sharp features follow the closest point of their element while a step is iterated.
+//! Contacts with thin and sharp features follow the closest point of their element while a step is
+//! iterated.
 //!
 //! # Equation
 //!
-//! A feature has one contact per element, with the energy `W(max over xi of d(xi; q))`, d the depth. Its force acts at the maximum, whose
-//! own motion does no work. It turns the force, however: the full tangent of `W(max d)` has, besides that of a fixed point,
+//! A feature has one contact per element, with the energy `W(max over xi of d(xi; q))`, d the
+//! depth. Its force acts at the maximum, whose own motion does no work. It turns the force,
+//! however: the full tangent of `W(max d)` has, besides that of a fixed point,
 //!
 //! ```text
 //! N (S' n)(S' n)^T / D,    D = n . r'' + |r'_t|^2 / |z| > 0
 //! ```
 //!
-//! S' the slope's shape functions, n the normal, r'_t the part of the slope that moves the nearest point around the core, z the vector from there. It is what resists an element
-//! that rolls over the feature; without it the iteration swings from one point to another, the steps do too, and the cable sinks in.
+//! S' the slope's shape functions, n the normal, r'_t the part of the slope that moves the nearest
+//! point around the core, z the vector from there. It is what resists an element that rolls over
+//! the feature; without it the iteration swings from one point to another, the steps do too, and
+//! the cable sinks in.
 //!
 //! # Energy
 //!
-//! Wherever the point is at the end of a step, no energy is made: W grows with d and is convex, so with the point xi of the end
-//! `W(d0(xi0)) - W(d1(xi)) + W'(d1)(d1 - d0(xi)) >= W(d0(xi0)) - W(d0(xi)) >= 0`, since xi0 was the maximum. The difference is lost. The point where the
-//! contact acts is therefore one between both, at which the difference is zero ([`slide`](super::slide)); it moves half as far as the maximum does,
-//! and so the force turns half as much.
+//! Wherever the point is at the end of a step, no energy is made: W grows with d and is convex, so
+//! with the point xi of the end `W(d0(xi0)) - W(d1(xi)) + W'(d1)(d1 - d0(xi)) >= W(d0(xi0)) -
+//! W(d0(xi)) >= 0`, since xi0 was the maximum. The difference is lost. The point where the contact
+//! acts is therefore one between both, at which the difference is zero ([`slide`](super::slide));
+//! it moves half as far as the maximum does, and so the force turns half as much.
 //!
 //! # Validity
 //!
-//! One maximum per element and feature. Where another one takes its place in a step the iteration may swing between both, and the step is
-//! divided; an element that winds around a rod, longer than its circumference, may carry it in two places at once, for which no division helps: such a
-//! host step takes up to 2e5 iterations. While the point passes to the other side of the core in a step, it stays.
+//! One maximum per element and feature. Where another one takes its place in a step the iteration
+//! may swing between both, and the step is divided; an element that winds around a rod, longer than
+//! its circumference, may carry it in two places at once, for which no division helps: such a host
+//! step takes up to 2e5 iterations. While the point passes to the other side of the core in a step,
+//! it stays.
 
 use super::evaluation::Between;
 use super::find::one_sided;
@@ -39,7 +46,8 @@ use crate::obstacle::Patch;
 use crate::scales::contact::LEAST_DETERMINANT;
 
 impl ContactStep {
-    /// Moves contacts with features to where they act at an iterate: between the points that are closest at the beginning and at the end.
+    /// Moves contacts with features to where they act at an iterate: between the points that are
+    /// closest at the beginning and at the end.
     pub(super) fn follow_closest(&mut self, motion: &Motion<'_>) {
         for i in 0..self.points.len() {
             let Some(n) = self.points[i].nearby else { continue };
@@ -57,7 +65,8 @@ impl ContactStep {
         }
     }
 
-    /// Lets a contact act between the closest point at the beginning and the one at the end, `xi` of an element.
+    /// Lets a contact act between the closest point at the beginning and the one at the end, `xi`
+    /// of an element.
     fn act_between(&mut self, motion: &Motion<'_>, i: usize, (end, xi): (&Nearby, f64)) {
         let Some(pair) = self.pair(motion, end) else { return };
         let x1 = Place { pair: &pair, xi };
@@ -84,7 +93,8 @@ impl ContactStep {
         }
     }
 
-    /// Returns the closest point when the step begins: element, where it begins, and local coordinate.
+    /// Returns the closest point when the step begins: element, where it begins, and local
+    /// coordinate.
     fn start(&mut self, motion: &Motion<'_>, nearby: Option<usize>, end: &Nearby) -> Option<(usize, f64, f64)> {
         let known = nearby.map(|n| self.nearby[n]).filter(|known| known.is_same(end)).and_then(|known| known.start);
         if let Some(start) = known {
@@ -140,7 +150,8 @@ impl ContactStep {
     }
 }
 
-/// Returns how the closest point of an element moves with it at the end of an iterate; `None` at its ends.
+/// Returns how the closest point of an element moves with it at the end of an iterate; `None` at
+/// its ends.
 fn roll(point: &ContactPoint, pair: &Pair<'_>, nearby: &Nearby) -> Option<Roll> {
     let (e, length) = (pair.element, pair.section.length);
     if point.xi <= 0.0 || point.xi >= 1.0 {

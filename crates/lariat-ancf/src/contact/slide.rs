@@ -2,22 +2,27 @@
 //!
 //! # Equation
 //!
-//! With d the distance of a point x of the cable from the core, the closest points x0 at the beginning and x1 at the end of the step,
+//! With d the distance of a point x of the cable from the core, the closest points x0 at the
+//! beginning and x1 at the end of the step,
 //!
 //! ```text
 //! d1(x) - d0(x) = d1(x1) - d0(x0)        x between x0 and x1
 //! ```
 //!
-//! has a solution by the mean value theorem, for the left side is at most the right one at x1, and at least at x0. The force acts there, along its
-//! mean normal, and its depth is that of the closest points: with the excess `e = d0(x) - d0(x0)` of its distances over theirs, at both ends.
-//! So the force does exactly the work by which the energy of the contact changes; a cable that slides along itself without friction is not braked. At the
-//! closest point of the end it would be, by `slide/4(r + R)` of the normal force, r and R the radii of cable and feature: a third at 1 m/s, 1/240 s and 7 mm.
+//! has a solution by the mean value theorem, for the left side is at most the right one at x1, and
+//! at least at x0. The force acts there, along its mean normal, and its depth is that of the
+//! closest points: with the excess `e = d0(x) - d0(x0)` of its distances over theirs, at both ends.
+//! So the force does exactly the work by which the energy of the contact changes; a cable that
+//! slides along itself without friction is not braked. At the closest point of the end it would be,
+//! by `slide/4(r + R)` of the normal force, r and R the radii of cable and feature: a third at 1
+//! m/s, 1/240 s and 7 mm.
 //!
 //! # Validity
 //!
-//! One minimum of the distance per element and its neighbours. Where the closest points of beginning and end are on opposite sides of the core, or the
-//! point at the end is not the closest one, the contact acts at the closest point of the end. Slides of several `r + R` in a step weaken the mean normal,
-//! and so the force at the same depth.
+//! One minimum of the distance per element and its neighbours. Where the closest points of
+//! beginning and end are on opposite sides of the core, or the point at the end is not the closest
+//! one, the contact acts at the closest point of the end. Slides of several `r + R` in a step
+//! weaken the mean normal, and so the force at the same depth.
 
 use super::pair::Pair;
 use crate::obstacle::Feature;
@@ -42,7 +47,8 @@ impl Place<'_, '_> {
     }
 }
 
-/// Returns the share of the way from x0 to x1, of one element or of neighbours, at which a contact acts, and its excess in m.
+/// Returns the share of the way from x0 to x1, of one element or of neighbours, at which a contact
+/// acts, and its excess in m.
 pub(super) fn mean_point([x0, x1]: &[Place<'_, '_>; 2], feature: &Feature) -> Option<(f64, f64)> {
     let (z0, z1) = (x0.beside_core(feature, 0.0), x1.beside_core(feature, 1.0));
     if z0.dot(&z1) <= 0.0 {

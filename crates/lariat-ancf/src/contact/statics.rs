@@ -6,8 +6,8 @@
 //! V = sum w W(d)      d = r + skin - g      F = w W' n      -dF/dx = w (W'' n n^T - W' H)
 //! ```
 //!
-//! at the samples of the elements; g is the distance from the patch that a sample sees, n its gradient and H its Hessian. Friction takes nothing: in the
-//! shape that is found none is needed.
+//! at the samples of the elements; g is the distance from the patch that a sample sees, n its
+//! gradient and H its Hessian. Friction takes nothing: in the shape that is found none is needed.
 //!
 //! The search begins with a softer law where it has to ([`continuation`](crate::statics)).
 //!
@@ -22,7 +22,8 @@
 //!
 //! # References
 //!
-//! Wriggers, Computational Contact Mechanics, 2006, section 6.3 (penalty); Allgower & Georg 1990 (continuation).
+//! Wriggers, Computational Contact Mechanics, 2006, section 6.3 (penalty); Allgower & Georg 1990
+//! (continuation).
 //!
 //! # Alternatives considered
 //!
@@ -47,7 +48,8 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 pub(crate) struct StaticContact {
     on: bool,
     time: f64,
-    /// Load per length in N/m, and the depth in m that it has in a softened law; 0 for the law itself.
+    /// Load per length in N/m, and the depth in m that it has in a softened law; 0 for the law
+    /// itself.
     load: f64,
     depth: f64,
     /// Obstacle and arc lengths in m of the pieces at held nodes.
@@ -65,7 +67,8 @@ impl Default for Growth {
 }
 
 impl Growth {
-    /// Adapts it to the outcome of a search, and returns whether one that failed is tried again with less.
+    /// Adapts it to the outcome of a search, and returns whether one that failed is tried again
+    /// with less.
     pub fn adapt(&mut self, found: bool) -> bool {
         let last = self.0;
         self.0 = if found { (last * last).min(MOST_GROWTH) } else { last.sqrt() };
@@ -96,7 +99,8 @@ struct Sample<'a> {
 }
 
 impl StaticContact {
-    /// Begins to solve the statics of a cable at a time (s), with its held nodes at their places in `q`.
+    /// Begins to solve the statics of a cable at a time (s), with its held nodes at their places in
+    /// `q`.
     pub fn begin(&mut self, model: &Model, time: f64, q: &[f64]) {
         (self.load, self.depth) = (0.0, 0.0);
         (self.on, self.time) = (model.effects.contact.is_some() && !model.obstacles.0.is_empty(), time);
@@ -124,8 +128,8 @@ impl StaticContact {
         deep
     }
 
-    /// Softens the law, so that the loads per length have the depth in which the cable is at `q`, or that of a radius. Returns whether there is anything to
-    /// touch.
+    /// Softens the law, so that the loads per length have the depth in which the cable is at `q`,
+    /// or that of a radius. Returns whether there is anything to touch.
     pub fn soften(&mut self, model: &Model, q: &[f64]) -> bool {
         let Some(contact) = model.effects.contact.filter(|_| self.on) else { return false };
         let mut deepest = model.elements.iter().map(|e| contact.radius_of(&e.section)).fold(0.0, f64::max);
@@ -134,7 +138,8 @@ impl StaticContact {
         true
     }
 
-    /// Makes a softened law harder, and returns the depth that the loads had; `None` if it was not softened.
+    /// Makes a softened law harder, and returns the depth that the loads had; `None` if it was not
+    /// softened.
     pub fn harden(&mut self, model: &Model, growth: &Growth) -> Option<f64> {
         let contact = model.effects.contact.filter(|_| self.on && self.depth > 0.0)?;
         let before = self.depth;

@@ -31,7 +31,8 @@ pub(crate) struct ContactStep {
     pub(super) obstacles: Vec<ObstacleStep>,
     /// By contact of the memory, whether a point took it up.
     pub(super) recalled: Vec<bool>,
-    /// Where the contact of the next sample is in the memory, if it is that of the sample after the last one found.
+    /// Where the contact of the next sample is in the memory, if it is that of the sample after the
+    /// last one found.
     pub(super) next: usize,
     /// Number of tests of whether elements are near obstacles and their features.
     pub(super) tests: u64,
@@ -99,7 +100,8 @@ impl ContactStep {
         self.points.len() as u64
     }
 
-    /// Returns the number of tests of whether elements are near obstacles and their features, since that was last asked.
+    /// Returns the number of tests of whether elements are near obstacles and their features, since
+    /// that was last asked.
     pub fn take_tests(&mut self) -> u64 {
         core::mem::take(&mut self.tests)
     }
@@ -118,7 +120,8 @@ impl ContactStep {
         if self.points.is_empty() { &[] } else { self.borders.get() }
     }
 
-    /// Adds the impulses on bodies to their rows, about their centres: those at the iterate, or those about which the next solve is linear.
+    /// Adds the impulses on bodies to their rows, about their centres: those at the iterate, or
+    /// those about which the next solve is linear.
     pub fn pass_impulses(&self, linear: bool, rows: &mut [f64]) {
         for point in &self.points {
             let Some(body) = self.obstacles[point.obstacle].body else { continue };
@@ -133,8 +136,8 @@ impl ContactStep {
         }
     }
 
-    /// Adds h times the forces, linear about an iterate, to `rhs`, and `b h^2` times their tangents to the matrix and to the columns of the
-    /// bodies that carry obstacles.
+    /// Adds h times the forces, linear about an iterate, to `rhs`, and `b h^2` times their tangents
+    /// to the matrix and to the columns of the bodies that carry obstacles.
     pub fn linearise(&mut self, change: &[f64], rhs: &mut [f64], matrix: &mut BlockTridiagonal) {
         let (h, b) = (self.h, self.leg.b);
         self.borders.begin(rhs.len());

@@ -99,11 +99,12 @@ pub trait Coupling {
     fn attach(&mut self, at: impl Into<At>) -> Result<usize, Error>;
 
     /// Gives the position of a node and the direction of its tangent to an island, for a
-    /// [`PinConstraint`](crate::island::PinConstraint) with a direction: `along`, or as [`clamp`](Cable::clamp).
+    /// [`PinConstraint`](crate::island::PinConstraint) with a direction: `along`, or as
+    /// [`clamp`](Cable::clamp).
     ///
     /// # Errors
-    /// As [`node`](Cable::node); [`Error::NoTangent`] if the tangent has no length; [`Error::InvalidValue`] for a direction that is zero or
-    /// not finite.
+    /// As [`node`](Cable::node); [`Error::NoTangent`] if the tangent has no length;
+    /// [`Error::InvalidValue`] for a direction that is zero or not finite.
     fn attach_clamped(&mut self, at: impl Into<At>, along: Option<Vector3<f64>>) -> Result<usize, Error>;
 
     /// Frees a node that was attached: its position, and its tangent if that was clamped to the

@@ -128,7 +128,8 @@ pub enum Requirement {
     DisplacedArea,
     /// Drag.
     Drag,
-    /// An axial rule that has the whole strain that is linear in the element: projected, exact, mean, or five Gauss points and more.
+    /// An axial rule that has the whole strain that is linear in the element: projected, exact,
+    /// mean, or five Gauss points and more.
     WholeAxialRule,
     /// A rest stretch of 1: a law has its own strain without force.
     RestStretch,

@@ -31,8 +31,8 @@ pub trait Dynamics {
     /// Overwrites prescribed coordinates and velocities by their values at `time`.
     fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]);
 
-    /// Puts prescribed coordinates and velocities in place at the beginning of a host step. What that does to kinetic energy is work of the
-    /// supports.
+    /// Puts prescribed coordinates and velocities in place at the beginning of a host step. What
+    /// that does to kinetic energy is work of the supports.
     fn place(&mut self, state: &mut State) {
         self.prescribe(state.time, &mut state.q, &mut state.v);
     }
@@ -81,19 +81,22 @@ pub trait Dynamics {
         None
     }
 
-    /// Takes `energy` (J) from the velocities of a state, or as much of it as changes no velocity by more than `largest` (m/s), and leaves
-    /// the momenta that nothing holds. Returns what was taken. Default: nothing.
+    /// Takes `energy` (J) from the velocities of a state, or as much of it as changes no velocity
+    /// by more than `largest` (m/s), and leaves the momenta that nothing holds. Returns what was
+    /// taken. Default: nothing.
     fn take_energy(&mut self, _state: &mut State, _energy: f64, _largest: f64) -> f64 {
         0.0
     }
 
-    /// Returns whether nothing but the known work changes the energy. Default true; false for an island, whose bodies
-    /// an engine or a user moves besides. A method with an error estimate is then not checked for spurious energy.
+    /// Returns whether nothing but the known work changes the energy. Default true; false for an
+    /// island, whose bodies an engine or a user moves besides. A method with an error estimate is
+    /// then not checked for spurious energy.
     fn is_isolated(&self) -> bool {
         true
     }
 
-    /// Returns the number of Newton iterations so far, to limit the work of a step. Default 0: they are not counted.
+    /// Returns the number of Newton iterations so far, to limit the work of a step. Default 0: they
+    /// are not counted.
     fn newton_iterations(&self) -> u64 {
         0
     }

@@ -11,26 +11,28 @@
 //!
 //! is the largest amount that was made in any interval of time that ends now (a cumulative sum). A
 //! step after which it exceeds 1 % of the largest kinetic and strain energy of the run so far (with
-//! that of a strain of 1e-5, for a run that begins at rest) is rejected and tried at a quarter of its length; if a step of 1/1024 of the first one still
-//! makes it, the host step fails with
-//! [`StepFailure::EnergyMade`]. The account is part of a snapshot. So
-//! no run gains more than this share between any two times.
+//! that of a strain of 1e-5, for a run that begins at rest) is rejected and tried at a quarter of
+//! its length; if a step of 1/1024 of the first one still makes it, the host step fails with
+//! [`StepFailure::EnergyMade`]. The account is part of a snapshot. So no run gains more than this
+//! share between any two times.
 //!
-//! The errors of many steps within a tolerance are no blow-up, but they add up: an undamped pendulum at the default tolerance and 1/90 s
-//! makes 1 % in 20 000 host steps, however each is divided. Where the error is controlled, what the account holds beyond half of that
-//! share is therefore taken from velocities at the end of the step (a projection onto the energy), as far as that moves no point by more
-//! over the step than the error budget leaves beside the estimate. What is left is taken in later steps: near its turning point a pendulum
-//! has hardly any velocity. The order of the method stays, for what is taken is an error of the step.
+//! The errors of many steps within a tolerance are no blow-up, but they add up: an undamped
+//! pendulum at the default tolerance and 1/90 s makes 1 % in 20 000 host steps, however each is
+//! divided. Where the error is controlled, what the account holds beyond half of that share is
+//! therefore taken from velocities at the end of the step (a projection onto the energy), as far as
+//! that moves no point by more over the step than the error budget leaves beside the estimate. What
+//! is left is taken in later steps: near its turning point a pendulum has hardly any velocity. The
+//! order of the method stays, for what is taken is an error of the step.
 //!
 //! # Validity
 //!
 //! Systems that know the work on them: `None` of
 //! [`spurious_energy`](super::Dynamics::spurious_energy) is not checked. In an island only methods
-//! without an error estimate (the midpoint rule) are: what contacts and joints do to its bodies between two
-//! steps would count as made, and jams under 5 kN were refused. The share is a bound of what
-//! a wrong setting may do, not an accuracy: error control at the default tolerance stays far below
-//! it. A-stability bounds the energy of a linear system only; on a cable the midpoint rule, the
-//! trapezoidal rule, and L-stable methods with tolerances of millimetres and more make energy
+//! without an error estimate (the midpoint rule) are: what contacts and joints do to its bodies
+//! between two steps would count as made, and jams under 5 kN were refused. The share is a bound of
+//! what a wrong setting may do, not an accuracy: error control at the default tolerance stays far
+//! below it. A-stability bounds the energy of a linear system only; on a cable the midpoint rule,
+//! the trapezoidal rule, and L-stable methods with tolerances of millimetres and more make energy
 //! without this check.
 //!
 //! # References
@@ -43,10 +45,10 @@
 //! - A bound for each step: many steps below it make any amount.
 //! - The net sum since the start: what a damping method has lost long ago would pay for a blow-up.
 //! - Scaling velocities down by all of the excess: it hides a step that is wrong.
-//! - Taking all that each step makes: a swing makes energy in one half and loses it in the other, so
-//!   that the sum of what is made is a loss. Below half of the share nothing is taken.
-//! - Giving back what is lost as well: an L-stable method damps vibrations that it does not resolve,
-//!   and their energy would go into the slow motion.
+//! - Taking all that each step makes: a swing makes energy in one half and loses it in the other,
+//!   so that the sum of what is made is a loss. Below half of the share nothing is taken.
+//! - Giving back what is lost as well: an L-stable method damps vibrations that it does not
+//!   resolve, and their energy would go into the slow motion.
 
 use super::dynamics::Dynamics;
 use crate::error::StepFailure;
@@ -86,8 +88,8 @@ impl EnergyCheck {
         Ok(EnergyCheck { made, largest, ..self })
     }
 
-    /// Takes what the account holds beyond half of the largest share from the velocities of a state, but changes none by more than `largest`
-    /// (m/s).
+    /// Takes what the account holds beyond half of the largest share from the velocities of a
+    /// state, but changes none by more than `largest` (m/s).
     pub fn take(&mut self, system: &mut dyn Dynamics, state: &mut State, largest: f64) {
         let excess = self.made - MAX_LEFT_SHARE * self.largest;
         if self.active && excess > 0.0 && largest > 0.0 {

@@ -57,8 +57,8 @@ pub(super) struct ErrorBudget {
 }
 
 impl ErrorBudget {
-    /// Begins a host step of length `horizon` (s) after errors of this coherence, and clears the sum
-    /// of errors.
+    /// Begins a host step of length `horizon` (s) after errors of this coherence, and clears the
+    /// sum of errors.
     pub fn new(tolerance: f64, horizon: f64, order: u32, coherence: f64, sum: &mut [f64]) -> Self {
         sum.fill(0.0);
         ErrorBudget { tolerance, horizon, order, coherence, sum: 0.0, sizes: 0.0 }

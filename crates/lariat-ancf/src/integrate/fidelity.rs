@@ -28,8 +28,8 @@ use std::str::FromStr;
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Fidelity {
-    /// Guarded discrete gradient at h <= 1/240 s: it cannot make energy, and costs the same in every
-    /// step of a smooth motion.
+    /// Guarded discrete gradient at h <= 1/240 s: it cannot make energy, and costs the same in
+    /// every step of a smooth motion.
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
@@ -74,9 +74,10 @@ impl Fidelity {
         }
     }
 
-    /// Returns the force strategy of a cable for which none is chosen: the default rule, which has the smallest error for its time in
-    /// `docs/accuracy`; for [`Game`](Self::Game) `projected-T1`, whose force of bending is linear. It costs a tenth less, kinks
-    /// softly, and differs by less than a step of 1/240 s does.
+    /// Returns the force strategy of a cable for which none is chosen: the default rule, which has
+    /// the smallest error for its time in `docs/accuracy`; for [`Game`](Self::Game) `projected-T1`,
+    /// whose force of bending is linear. It costs a tenth less, kinks softly, and differs by less
+    /// than a step of 1/240 s does.
     pub fn rule(self) -> Rule {
         match self {
             Fidelity::Game => Rule { bending: BendingRule::T1, ..Rule::default() },

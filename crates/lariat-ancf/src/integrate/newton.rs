@@ -11,8 +11,9 @@
 //! d_k^3/d_{k-1}^2 with a fresh one; the iteration ends when that, or d_k itself, is below the
 //! tolerance, and the residual, which shrinks as the increments do, leaves at most 1e-3 of the
 //! impulses unbalanced. The second condition is asked for where forces depend on velocities, which
-//! no tolerance of positions bounds (without it a damped rope that carries an arm reads 2 % less than
-//! it carries, steadily), and in the first four iterations: a slack cable has hardly any impulses.
+//! no tolerance of positions bounds (without it a damped rope that carries an arm reads 2 % less
+//! than it carries, steadily), and in the first four iterations: a slack cable has hardly any
+//! impulses.
 //!
 //! # References
 //!
@@ -32,7 +33,8 @@ pub struct Increment {
     pub displacement: f64,
     /// Largest change of a slope, or rotation in rad.
     pub rotation: f64,
-    /// Share of the impulses that the residual before the increment leaves unbalanced; 0 if forces do not depend on velocities.
+    /// Share of the impulses that the residual before the increment leaves unbalanced; 0 if forces
+    /// do not depend on velocities.
     pub imbalance: f64,
 }
 

@@ -142,7 +142,8 @@ pub trait OneStep: fmt::Debug {
         false
     }
 
-    /// Returns whether the method steps by discrete gradients of the energy instead of [`step`](Self::step). Default false; only
+    /// Returns whether the method steps by discrete gradients of the energy instead of
+    /// [`step`](Self::step). Default false; only
     /// [`DiscreteGradient`](super::discrete_gradient::DiscreteGradient) does.
     fn uses_discrete_gradients(&self) -> bool {
         false
@@ -162,10 +163,10 @@ pub trait OneStep: fmt::Debug {
         Ok(())
     }
 
-    /// Advances `now` by one step into `scratch.next`, and returns the size of the estimated position
-    /// error of the step in m, with the vector in `scratch.error`, if the method has an estimate and the request needs it.
-    /// `now.memory.acceleration` is valid on entry, that of `scratch.next` on return; its time is
-    /// set by the caller.
+    /// Advances `now` by one step into `scratch.next`, and returns the size of the estimated
+    /// position error of the step in m, with the vector in `scratch.error`, if the method has an
+    /// estimate and the request needs it. `now.memory.acceleration` is valid on entry, that of
+    /// `scratch.next` on return; its time is set by the caller.
     ///
     /// # Errors
     /// The failures of the stages and accelerations of `system`.

@@ -21,11 +21,11 @@
 //! Steps of implicit methods that make energy are rejected by the [energy
 //! check](super::energy_check), and tried at a quarter as well.
 //!
-//! Steps of fixed length are divided for failures that are rare. One at the shortest length, and the
-//! growth back by 1.2, take 10 + 76 tries. A host step fails once it has taken more than those of
-//! two of them in each of its regular steps: the method does not take steps of this length there, as
-//! the midpoint rule with a stiff cable whose end is set in motion by a jolt, which else took 1e5 steps
-//! per host step.
+//! Steps of fixed length are divided for failures that are rare. One at the shortest length, and
+//! the growth back by 1.2, take 10 + 76 tries. A host step fails once it has taken more than those
+//! of two of them in each of its regular steps: the method does not take steps of this length
+//! there, as the midpoint rule with a stiff cable whose end is set in motion by a jolt, which else
+//! took 1e5 steps per host step.
 //!
 //! # References
 //!
@@ -288,7 +288,8 @@ fn check_finite(next: &State, estimate: Option<f64>) -> Result<(), StepFailure> 
     }
 }
 
-/// Returns whether `x + y + z` is finite in every place: then each of them is. A branch for each number takes a tenth of an explicit step.
+/// Returns whether `x + y + z` is finite in every place: then each of them is. A branch for each
+/// number takes a tenth of an explicit step.
 fn is_sum_finite(x: &[f64], y: &[f64], z: &[f64]) -> bool {
     let ((x, rest), (y, _), (z, _)) = (x.as_chunks::<6>(), y.as_chunks::<6>(), z.as_chunks::<6>());
     let mut zeros = [0.0; 6];

@@ -1,18 +1,21 @@
 //! A limit to the work of a step, so that no frame of a game waits for it.
 //!
 //! # Scheme
-//! Newton iterations are counted. Once they are spent, error-controlled methods and methods of fixed steps stop with
-//! [`StepFailure::WorkLimit`](crate::StepFailure::WorkLimit), and the cable is as before. The
-//! [discrete gradient](crate::integrate::discrete_gradient) then takes one iteration per step: what a step would make is taken from
-//! velocities relative to rigid motion, all of them if need be. So it cannot make energy either, but forces, and the motion that they
-//! drive, have errors without a bound. Where even that does not keep the energy law, it *stops before the end of the step*: the time of
-//! the cable, and the bodies of its island, are then behind, at a state that keeps the law. It stops after one part of a step at least, so
-//! that it always goes on.
+//! Newton iterations are counted. Once they are spent, error-controlled methods and methods of
+//! fixed steps stop with [`StepFailure::WorkLimit`](crate::StepFailure::WorkLimit), and the cable
+//! is as before. The [discrete gradient](crate::integrate::discrete_gradient) then takes one
+//! iteration per step: what a step would make is taken from velocities relative to rigid motion,
+//! all of them if need be. So it cannot make energy either, but forces, and the motion that they
+//! drive, have errors without a bound. Where even that does not keep the energy law, it *stops
+//! before the end of the step*: the time of the cable, and the bodies of its island, are then
+//! behind, at a state that keeps the law. It stops after one part of a step at least, so that it
+//! always goes on.
 //!
 //! # Validity
-//! A limit of iterations is exceeded by the stages of one step at most, then by one iteration per step of the discrete gradient, and in
-//! the first of them by those of one step and its first divisions, 20 for each of 7 lengths. A limit of time is compared at the same
-//! points, and its results are not repeatable.
+//! A limit of iterations is exceeded by the stages of one step at most, then by one iteration per
+//! step of the discrete gradient, and in the first of them by those of one step and its first
+//! divisions, 20 for each of 7 lengths. A limit of time is compared at the same points, and its
+//! results are not repeatable.
 
 use core::cell::Cell;
 use std::time::Instant;

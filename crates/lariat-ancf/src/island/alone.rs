@@ -21,8 +21,8 @@ thread_local! {
     static POOL: RefCell<Vec<Buffers>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Advances a cable in its workspace by `dt` (s), and returns the numbers of steps with the outcome. After a failure the state is the last
-/// accepted one.
+/// Advances a cable in its workspace by `dt` (s), and returns the numbers of steps with the
+/// outcome. After a failure the state is the last accepted one.
 pub(crate) fn advance(cable: &mut Cable, integrator: IntegratorRef<'_>, dt: f64) -> (Counts, Result<(), FailedStep>) {
     let mut buffers = POOL.with_borrow_mut(Vec::pop).unwrap_or_default();
     let Buffers { layout, accounts, step } = &mut buffers;

@@ -49,7 +49,8 @@ impl BodyMemory {
     }
 }
 
-/// What a body carries to the next step of the [discrete gradient](crate::integrate::discrete_gradient). Plain data.
+/// What a body carries to the next step of the [discrete
+/// gradient](crate::integrate::discrete_gradient). Plain data.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct BodyDifferences {
     /// Changes of velocity in world axes and of angular velocity in body axes.
@@ -99,13 +100,15 @@ pub struct RigidBody {
     /// velocity and angular velocity exceed them by at the beginning and at the end of the step, in
     /// m/s and rad/s. The pins follow cubics between them. Default: zero.
     pub unsteadiness: [[Vector3<f64>; 2]; 2],
-    /// In [statics](super::equilibrium), forces of constant direction that act at points of the body, beside `force` and `torque`, which are
-    /// through the centre of mass and constant: their torque turns with it. Default: none.
+    /// In [statics](super::equilibrium), forces of constant direction that act at points of the
+    /// body, beside `force` and `torque`, which are through the centre of mass and constant: their
+    /// torque turns with it. Default: none.
     pub at_points: Option<PointForces>,
 }
 
-/// Forces of constant direction at points of a body, R its attitude: `sum F`, and `A = sum p F^T` of the points p from the centre of
-/// mass, in body axes. Their torque is the axial vector of `R A`, their work from the unturned attitude its trace.
+/// Forces of constant direction at points of a body, R its attitude: `sum F`, and `A = sum p F^T`
+/// of the points p from the centre of mass, in body axes. Their torque is the axial vector of `R
+/// A`, their work from the unturned attitude its trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointForces {
     /// Sum of the forces in N, in world axes.
@@ -132,7 +135,8 @@ impl PointForces {
         Vector3::new(b[(1, 2)] - b[(2, 1)], b[(2, 0)] - b[(0, 2)], b[(0, 1)] - b[(1, 0)])
     }
 
-    /// Returns the derivative of the torque by a rotation, symmetrised, with the sign of a stiffness.
+    /// Returns the derivative of the torque by a rotation, symmetrised, with the sign of a
+    /// stiffness.
     pub(super) fn stiffness(&self, rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
         let b = rotation.to_rotation_matrix() * self.moment;
         Matrix3::from_diagonal_element(b.trace()) - (b + b.transpose()) * 0.5
@@ -234,8 +238,9 @@ impl RigidBody {
         0.5 * (self.mass * self.velocity.norm_squared() + self.angular_velocity.dot(&self.spin()))
     }
 
-    /// Returns the energy in J that the method `discrete-gradient` holds beyond the kinetic energy, as
-    /// [`Cable::energy_in_store`](crate::coupling::Coupling::energy_in_store); without that of the carried inertia.
+    /// Returns the energy in J that the method `discrete-gradient` holds beyond the kinetic energy,
+    /// as [`Cable::energy_in_store`](crate::coupling::Coupling::energy_in_store); without that of
+    /// the carried inertia.
     pub fn energy_in_store(&self) -> f64 {
         let Some(last) = self.memory.as_ref().and_then(|memory| memory.differences.as_ref()) else { return 0.0 };
         let [velocity, spin] = last.change;

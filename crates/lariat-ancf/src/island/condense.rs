@@ -9,8 +9,8 @@
 //! Y = A_ff^-1 A_fp        W = A_pp - A_pf Y        r_p - A_pf A_ff^-1 r_f
 //! ```
 //!
-//! Bodies that the cable touches stand beside the held coordinates, with columns and blocks of their own
-//! ([`contact`](crate::contact)), and so do the forces of contacts with cables.
+//! Bodies that the cable touches stand beside the held coordinates, with columns and blocks of
+//! their own ([`contact`](crate::contact)), and so do the forces of contacts with cables.
 //!
 //! W (3 rows per pin, 6 per clamp or touched body, 3 per contact with a cable) is the dynamic
 //! stiffness of the cable at the bodies; Y gives the increments of the cable from those of the
@@ -66,7 +66,8 @@ pub(super) struct Condensed {
 }
 
 impl Condensed {
-    /// Reads the columns of the held coordinates from `a`, before it is projected, and those of touched bodies.
+    /// Reads the columns of the held coordinates from `a`, before it is projected, and those of
+    /// touched bodies.
     pub fn read(&mut self, a: &BlockTridiagonal, holds: &[Hold], borders: &[Border]) {
         self.size = 6 * a.nodes();
         self.columns.clear();

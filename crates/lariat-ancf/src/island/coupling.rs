@@ -6,8 +6,9 @@
 //! T = 1/2 sum_i u_i . B_i u_i + sum_(i<j) u_i . C_ij u_j
 //! ```
 //!
-//! u = (v, w) are the velocities of the bodies, B_i their own [inertia](super::RigidBody) with what they carry, and C_ij the blocks beside
-//! the diagonal of the operational-space inertia of the bodies that a mechanism connects.
+//! u = (v, w) are the velocities of the bodies, B_i their own [inertia](super::RigidBody) with what
+//! they carry, and C_ij the blocks beside the diagonal of the operational-space inertia of the
+//! bodies that a mechanism connects.
 //!
 //! # Validity
 //!
@@ -19,8 +20,8 @@
 //!
 //! # Alternatives considered
 //!
-//! The other bodies' cables as loads that are known from the last step: they lag, and the forces of two ropes on one arm ripple by 0.39 of
-//! their sum.
+//! The other bodies' cables as loads that are known from the last step: they lag, and the forces of
+//! two ropes on one arm ripple by 0.39 of their sum.
 
 use crate::error::{Error, require};
 use nalgebra::{Matrix6, UnitQuaternion, Vector6};
@@ -30,8 +31,9 @@ use nalgebra::{Matrix6, UnitQuaternion, Vector6};
 pub struct CoupledInertia {
     /// Indices of the bodies.
     pub bodies: [usize; 2],
-    /// Momentum and angular momentum of the first per velocity and angular velocity of the second, in world axes about their centres of
-    /// mass, when the step begins (kg, kg m, kg m^2). Its transpose couples the second to the first.
+    /// Momentum and angular momentum of the first per velocity and angular velocity of the second,
+    /// in world axes about their centres of mass, when the step begins (kg, kg m, kg m^2). Its
+    /// transpose couples the second to the first.
     pub matrix: Matrix6<f64>,
 }
 
@@ -42,7 +44,8 @@ impl CoupledInertia {
         [(one, self.matrix * velocity(two)), (two, self.matrix.tr_mul(&velocity(one)))]
     }
 
-    /// Returns it with the rotations of both bodies in axes that are turned from the present ones by `turns`.
+    /// Returns it with the rotations of both bodies in axes that are turned from the present ones
+    /// by `turns`.
     pub(super) fn turned(&self, turns: [UnitQuaternion<f64>; 2]) -> Self {
         let [one, two] = turns.map(|turn| {
             let mut both = Matrix6::identity();

@@ -12,8 +12,8 @@
 //!
 //! # Validity
 //!
-//! No result where a driven body moves, a gap closes fast, a clamp rotates a slope into place, or a cable does not know the work of its
-//! loads.
+//! No result where a driven body moves, a gap closes fast, a clamp rotates a slope into place, or a
+//! cable does not know the work of its loads.
 
 use super::equations::IslandEquations;
 use super::hold::{stack, vector};

@@ -106,7 +106,8 @@ impl IslandEquations<'_, '_> {
         }
     }
 
-    /// Returns the share of the impulses that rows, `scale F - M z`, leave unbalanced; 0 if no force on a cable depends on velocities.
+    /// Returns the share of the impulses that rows, `scale F - M z`, leave unbalanced; 0 if no
+    /// force on a cable depends on velocities.
     pub fn imbalance(&mut self, scale: f64, rows: &[f64]) -> f64 {
         let layout = self.layout;
         if !self.cables.iter().any(|cable| cable.model.depends_on_velocity()) {
@@ -182,7 +183,8 @@ impl IslandEquations<'_, '_> {
     }
 
     /// Factors the matrix of the bodies: masses, condensed cables, and, of the step matrix, the
-    /// geometric stiffness of the levers under the rows `rhs` of the held coordinates, and `scale` times that of forces at points.
+    /// geometric stiffness of the levers under the rows `rhs` of the held coordinates, and `scale`
+    /// times that of forces at points.
     pub fn factor_bodies(
         &mut self,
         kind: MatrixKind,
@@ -224,8 +226,8 @@ impl IslandEquations<'_, '_> {
         matrix.factor()
     }
 
-    /// Returns whether the step matrix at `at` is positive definite: those of the cables, condensed,
-    /// and that of the bodies.
+    /// Returns whether the step matrix at `at` is positive definite: those of the cables,
+    /// condensed, and that of the bodies.
     pub fn is_positive_definite(&mut self, at: &ForceInput<'_>, rhs: &mut [f64]) -> Result<bool, StepFailure> {
         let layout = self.layout;
         let none = vec![0.0; layout.size()];

@@ -224,7 +224,8 @@ impl Layout {
 }
 
 impl Layout {
-    /// Returns twice the kinetic energy in J of the coupled inertia at the velocities of the bodies.
+    /// Returns twice the kinetic energy in J of the coupled inertia at the velocities of the
+    /// bodies.
     pub(super) fn coupled_energy(&self, velocity: impl Fn(usize) -> Vector6<f64>) -> f64 {
         let energy = |c: &CoupledInertia| velocity(c.bodies[0]).dot(&(c.matrix * velocity(c.bodies[1])));
         2.0 * self.coupled.iter().map(energy).sum::<f64>()

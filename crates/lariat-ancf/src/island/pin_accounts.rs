@@ -9,19 +9,22 @@
 //!
 //! f and m are force and moment of the cable on the body at the anchor: the residual of the cable
 //! at the pinned rows after every step of the integrator. The integrals are by the trapezoidal rule
-//! over these steps; those of the discrete gradient are exact. What they miss of the momentum of the cable
-//! is given to [driven pins](super::pin_momentum), and what they miss of the momentum of a free body to its pins:
+//! over these steps; those of the discrete gradient are exact. What they miss of the momentum of
+//! the cable is given to [driven pins](super::pin_momentum), and what they miss of the momentum of
+//! a free body to its pins:
 //!
 //! ```text
 //! sum of J over the pins of a body = m (v1 - v0) - F h        J += its share of what is missed, by the changes of its force in the steps
 //! ```
 //!
-//! A body with one pin has that pin's impulse to rounding; of several, the error is where forces changed.
+//! A body with one pin has that pin's impulse to rounding; of several, the error is where forces
+//! changed.
 //!
 //! # Validity
 //!
-//! Work and angular impulse are those of the trapezoidal rule, also where a step begins with a jolt, which that does not resolve. Of two cables on
-//! one body that is struck, impulses are off by up to 1 % of the largest, with the right sum.
+//! Work and angular impulse are those of the trapezoidal rule, also where a step begins with a
+//! jolt, which that does not resolve. Of two cables on one body that is struck, impulses are off by
+//! up to 1 % of the largest, with the right sum.
 //!
 //! # References
 //!
@@ -64,7 +67,8 @@ impl PinAccount {
         self.work += work;
     }
 
-    /// Adds a step of length `h` (s) of mean force, moment and power; of a slope only the moment counts.
+    /// Adds a step of length `h` (s) of mean force, moment and power; of a slope only the moment
+    /// counts.
     pub(super) fn add_mean(&mut self, h: f64, slope: bool, (force, moment, power): (Vector3<f64>, Vector3<f64>, f64)) {
         if slope {
             self.moment = moment;
@@ -86,7 +90,8 @@ pub(super) struct PinAccounts {
     pub momentum: PinMomentum,
     /// Time in s up to which they are integrated; `None` before the first state of a step.
     until: Option<f64>,
-    /// By pin, the sum of the changes of its force from state to state times their distance in time, in N s.
+    /// By pin, the sum of the changes of its force from state to state times their distance in
+    /// time, in N s.
     changes: Vec<f64>,
 }
 
@@ -119,8 +124,9 @@ impl PinAccounts {
         }
     }
 
-    /// Gives the pins of free bodies what the impulses over a step of `h` (s), at the end of which the bodies are as in `bodies`, miss of their
-    /// momentum. The discrete gradient needs none of it.
+    /// Gives the pins of free bodies what the impulses over a step of `h` (s), at the end of which
+    /// the bodies are as in `bodies`, miss of their momentum. The discrete gradient needs none of
+    /// it.
     pub fn balance(&mut self, layout: &Layout, bodies: &[RigidBody], h: f64) {
         let change = |i: usize| {
             let (first, last) = (&layout.bodies[i], &bodies[i]);

@@ -2,26 +2,31 @@
 //!
 //! # Equation
 //!
-//! A step from x0, v0 to x1, v1 leaves in every row of a cable an impulse and so, in all, an angular impulse about the origin
+//! A step from x0, v0 to x1, v1 leaves in every row of a cable an impulse and so, in all, an
+//! angular impulse about the origin
 //!
 //! ```text
 //! f = h F - M (v1 - v0)          A = sum x_m x f - sum (x1 - x0) x M (v0 + v1)/2          x_m = (x0 + x1)/2
 //! ```
 //!
-//! with the mean force F of the method. At held rows f is the reaction. At others it is what Newton's iteration left, what a rescaled
-//! step took from the velocities and, of methods that prescribe the ends of a step, the error of their quadrature. A cable gains this
-//! momentum all the same, so the pins give it: f acts through displacements `w_p` that are linear between held nodes,
+//! with the mean force F of the method. At held rows f is the reaction. At others it is what
+//! Newton's iteration left, what a rescaled step took from the velocities and, of methods that
+//! prescribe the ends of a step, the error of their quadrature. A cable gains this momentum all the
+//! same, so the pins give it: f acts through displacements `w_p` that are linear between held
+//! nodes,
 //!
 //! ```text
 //! J_p = sum_i w_p(i) f_i          sum_p w_p = 1          sum_p J_p = impulse of loads - change of momentum
 //! ```
 //!
-//! to rounding. Clamps take what is then left of A, in equal parts, where all that holds the cable are driven pins.
+//! to rounding. Clamps take what is then left of A, in equal parts, where all that holds the cable
+//! are driven pins.
 //!
 //! # Validity
 //!
-//! Pins on driven bodies; others have no host that could lose momentum, and take nothing of f. The discrete gradient takes F and A from its own
-//! equations; others by the trapezoidal rule over each of their steps, so the impulse of loads that change with time or state is of that order.
+//! Pins on driven bodies; others have no host that could lose momentum, and take nothing of f. The
+//! discrete gradient takes F and A from its own equations; others by the trapezoidal rule over each
+//! of their steps, so the impulse of loads that change with time or state is of that order.
 //!
 //! # References
 //!
@@ -140,7 +145,8 @@ impl PinMomentum {
         }
     }
 
-    /// Adds the impact at the beginning of a host step, which changed the momenta of all rows of the cables by `momentum`.
+    /// Adds the impact at the beginning of a host step, which changed the momenta of all rows of
+    /// the cables by `momentum`.
     pub fn add_impact(&mut self, layout: &Layout, q: &[f64], momentum: &[f64]) {
         for (c, angular) in self.angular.iter_mut().enumerate() {
             let range = layout.parts[c].range();
@@ -148,8 +154,9 @@ impl PinMomentum {
         }
     }
 
-    /// Adds a step of the discrete gradient of a cable: `f` of all rows but those of held positions, whose reactions `held` are in the
-    /// accounts; coordinates at the beginning and their change; the momentum of the mean velocity.
+    /// Adds a step of the discrete gradient of a cable: `f` of all rows but those of held
+    /// positions, whose reactions `held` are in the accounts; coordinates at the beginning and
+    /// their change; the momentum of the mean velocity.
     pub fn add_step(
         &mut self,
         cable: usize,
@@ -196,8 +203,9 @@ impl PinMomentum {
         (self.field, self.readings) = (field, readings);
     }
 
-    /// Returns by how much the angular impulses of the clamps of a cable miss A, and the number of clamps; `accounts` returns impulse
-    /// and angular impulse of a pin. `None` where something else holds the cable, too.
+    /// Returns by how much the angular impulses of the clamps of a cable miss A, and the number of
+    /// clamps; `accounts` returns impulse and angular impulse of a pin. `None` where something else
+    /// holds the cable, too.
     pub fn left_to_clamps(
         &self,
         c: usize,

@@ -63,14 +63,15 @@ impl Straight {
 }
 
 impl Island {
-    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`. Cables touch bodies that carry their
-    /// [obstacles](crate::contact::Obstacle::on).
+    /// Advances `cables` and `bodies`, held together by `pins`, by `dt` (s) with `integrator`.
+    /// Cables touch bodies that carry their [obstacles](crate::contact::Obstacle::on).
     ///
     /// # Errors
     /// [`Error::StepFailed`] if the step fails; [`Error::Pin`], [`Error::NotInIsland`] or
     /// [`Error::OutOfRange`] for a pin that fits no attached node, cable or body;
-    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; [`Error::ObstacleBody`] for an obstacle on a body that is not there; and as
-    /// [`Cable::step_with`](Cable::step_with). Cables and bodies are then exactly as before.
+    /// [`Error::EmptyIsland`] and [`Error::TimeMismatch`]; [`Error::ObstacleBody`] for an obstacle
+    /// on a body that is not there; and as [`Cable::step_with`](Cable::step_with). Cables and
+    /// bodies are then exactly as before.
     pub fn step(
         &mut self,
         cables: &mut [&mut Cable],
@@ -97,10 +98,12 @@ impl Island {
         self.step_with_sheaves(cables, bodies, pins, (&mut [], &[]), integrator.into(), dt)
     }
 
-    /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves and on drums.
+    /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves and on
+    /// drums.
     ///
     /// # Errors
-    /// As [`step`](Self::step), and [`Error::ReelPlace`] for a sheave or drum that does not fit the cables; sheaves are then as before, too.
+    /// As [`step`](Self::step), and [`Error::ReelPlace`] for a sheave or drum that does not fit the
+    /// cables; sheaves are then as before, too.
     pub fn step_with_sheaves(
         &mut self,
         cables: &mut [&mut Cable],
@@ -185,8 +188,9 @@ impl Island {
         Ok(())
     }
 
-    /// Sets which cables may touch each other, and with which friction, in the steps that follow: `None`, the default, for all that have contact with
-    /// cables, with the mean of their coefficients.
+    /// Sets which cables may touch each other, and with which friction, in the steps that follow:
+    /// `None`, the default, for all that have contact with cables, with the mean of their
+    /// coefficients.
     pub fn set_cable_pairs(&mut self, pairs: Option<&[CablePair]>) {
         let own = &mut self.by_discrete_gradient.may_touch;
         let mut list = own.take().unwrap_or_default();

@@ -6,8 +6,9 @@
 //! M dv = M J
 //! ```
 //!
-//! dv is the change of all velocities, J the velocity of the pinned nodes relative to their bodies. The impulses P on the pinned nodes lose the energy
-//! `-sum P . J / 2`: their work is that along the mean of the relative velocities before, J, and after, none.
+//! dv is the change of all velocities, J the velocity of the pinned nodes relative to their bodies.
+//! The impulses P on the pinned nodes lose the energy `-sum P . J / 2`: their work is that along
+//! the mean of the relative velocities before, J, and after, none.
 //!
 //! An inelastic impact: cable and body exchange the impulse that makes them move together, so that
 //! momentum is conserved when an engine, a user or a collision has changed a body's velocity.
@@ -69,7 +70,8 @@ impl IslandDynamics<'_, '_> {
         }
         equations.multiply_mass(z, velocity);
         accounts.add_impact(equations.layout, q, v, rhs, velocity);
-        // what sets driven nodes in motion, or stops them, is work of the bodies that drive them; others lose it
+        // what sets driven nodes in motion, or stops them, is work of the bodies that drive them;
+        // others lose it
         let layout = equations.layout;
         for (pin, of) in layout.pins.iter().enumerate() {
             let at = layout.pin_at(pin);

@@ -7,13 +7,16 @@ use crate::scales::integrate::ALPHA;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
 
-/// Coefficient: largest coefficient of restitution with which the discrete gradient makes no energy.
+/// Coefficient: largest coefficient of restitution with which the discrete gradient makes no
+/// energy.
 pub const LARGEST_RESTITUTION: f64 = (1.0 - ALPHA) / (1.0 + ALPHA);
 
-/// Something that a cable can touch: fixed, moving as prescribed, or carried by a body that the cable moves in turn.
+/// Something that a cable can touch: fixed, moving as prescribed, or carried by a body that the
+/// cable moves in turn.
 #[derive(Clone, Debug)]
 pub struct Obstacle {
-    /// Its number, by which contacts remember it from step to step; no two of a cable may share one.
+    /// Its number, by which contacts remember it from step to step; no two of a cable may share
+    /// one.
     pub key: u64,
     /// Its shape.
     pub surface: Arc<dyn Surface>,
@@ -23,12 +26,14 @@ pub struct Obstacle {
     pub mount: Option<Mount>,
     /// Coefficient of friction between it and the cable, >= 0.
     pub friction: f64,
-    /// Newton's coefficient of restitution between it and the cable, from 0 to [`LARGEST_RESTITUTION`]: the share of the velocity with
-    /// which the cable comes that it leaves with. Default: 0.
+    /// Newton's coefficient of restitution between it and the cable, from 0 to
+    /// [`LARGEST_RESTITUTION`]: the share of the velocity with which the cable comes that it leaves
+    /// with. Default: 0.
     pub restitution: f64,
     /// Distance in m that the cable keeps from it, >= 0.
     pub skin: f64,
-    /// Pieces of the cable, by their arc lengths in m, that do not touch it: where it holds the cable. Default: none.
+    /// Pieces of the cable, by their arc lengths in m, that do not touch it: where it holds the
+    /// cable. Default: none.
     pub except: Vec<[f64; 2]>,
 }
 
@@ -50,8 +55,8 @@ impl Obstacle {
         Obstacle { restitution, ..self }
     }
 
-    /// Returns it carried by a body of the island, which is where the obstacle should be on it. The cable then steps only in an
-    /// [`Island`](crate::island::Island) with that body.
+    /// Returns it carried by a body of the island, which is where the obstacle should be on it. The
+    /// cable then steps only in an [`Island`](crate::island::Island) with that body.
     pub fn on(self, mount: Mount) -> Self {
         Obstacle { mount: Some(mount), ..self }
     }

@@ -1,4 +1,5 @@
-//! What a cable can touch: obstacles, their shapes, and how they move. It knows no cable and no law of [contact](crate::contact).
+//! What a cable can touch: obstacles, their shapes, and how they move. It knows no cable and no law
+//! of [contact](crate::contact).
 
 mod description;
 mod patch;

@@ -190,8 +190,9 @@ impl Surface for Cuboid {
 mod tests {
     use super::*;
 
-    /// Around every shape the distance is that of the patch, and its gradient the patch's normal; so the patch touches the surface at the nearest
-    /// point. The features of the box and the cylinder are where two faces meet.
+    /// Around every shape the distance is that of the patch, and its gradient the patch's normal;
+    /// so the patch touches the surface at the nearest point. The features of the box and the
+    /// cylinder are where two faces meet.
     ///
     /// *Source.* The patch's own formulas, and central differences of the distance.
     #[test]

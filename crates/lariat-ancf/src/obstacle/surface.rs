@@ -11,11 +11,13 @@ pub struct Nearest {
     pub patch: Patch,
     /// Distance in m; negative inside.
     pub distance: f64,
-    /// Whether a [`Feature`] covers the place: if it is thin, the closest point of an element acts on it, in place of samples.
+    /// Whether a [`Feature`] covers the place: if it is thin, the closest point of an element acts
+    /// on it, in place of samples.
     pub feature: bool,
 }
 
-/// A sharp or round part of a surface that a cable can meet between its samples: an edge, a corner, a rod, a ball.
+/// A sharp or round part of a surface that a cable can meet between its samples: an edge, a corner,
+/// a rod, a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
     /// Number of the feature within its surface, the same in every call.
@@ -46,20 +48,21 @@ pub enum FeatureShape {
 
 /// A shape in its own axes, SI units.
 ///
-/// A shape that is not convex must return the nearest of all its parts. One without an inside (a mesh that is not closed) returns
-/// distances above zero, and patches that face the point.
+/// A shape that is not convex must return the nearest of all its parts. One without an inside (a
+/// mesh that is not closed) returns distances above zero, and patches that face the point.
 pub trait Surface: Debug + Send + Sync {
     /// Returns the nearest point of the surface.
     fn nearest(&self, point: &Vector3<f64>) -> Nearest;
 
-    /// Calls `visit` with every feature that may be within a ball of `radius` (m) about `centre`, others too if that is cheaper.
+    /// Calls `visit` with every feature that may be within a ball of `radius` (m) about `centre`,
+    /// others too if that is cheaper.
     fn features(&self, centre: &Vector3<f64>, radius: f64, visit: &mut dyn FnMut(Feature));
 
     /// Returns the corners of a box about the shape; `None` for one without bounds.
     fn bounds(&self) -> Option<[Vector3<f64>; 2]>;
 
-    /// Returns false only if no point of the shape is within a ball of `radius` (m) about `centre`. By its bounds, or without them by its distance;
-    /// a shape of many parts knows better.
+    /// Returns false only if no point of the shape is within a ball of `radius` (m) about `centre`.
+    /// By its bounds, or without them by its distance; a shape of many parts knows better.
     fn may_meet(&self, centre: &Vector3<f64>, radius: f64) -> bool {
         match self.bounds() {
             Some([low, high]) => {
@@ -72,8 +75,8 @@ pub trait Surface: Debug + Send + Sync {
 }
 
 impl Feature {
-    /// Returns the patch that a point nearest to the core sees, and the vector from the core to it; `None` if the nearest point of a
-    /// segment is an end, which belongs to another feature.
+    /// Returns the patch that a point nearest to the core sees, and the vector from the core to it;
+    /// `None` if the nearest point of a segment is an end, which belongs to another feature.
     #[inline]
     pub(crate) fn patch(&self, point: &Vector3<f64>) -> Option<(Patch, Vector3<f64>)> {
         let radius = self.radius;

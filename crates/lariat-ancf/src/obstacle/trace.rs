@@ -8,7 +8,8 @@ use super::surface::{Nearest, Surface};
 use crate::scales::obstacle::{PAST, TRACES};
 use nalgebra::Vector3;
 
-/// Returns the surface where the way from `start` to `end` comes within `reach` of a part that `counts`; past others it goes on.
+/// Returns the surface where the way from `start` to `end` comes within `reach` of a part that
+/// `counts`; past others it goes on.
 pub(crate) fn trace(
     surface: &dyn Surface,
     [start, end]: [&Vector3<f64>; 2],

@@ -1,5 +1,5 @@
-//! Of [`contact`](crate::contact). Radii are those of the cable; a reach is the sum of the radii of two that
-//! touch.
+//! Of [`contact`](crate::contact). Radii are those of the cable; a reach is the sum of the radii of
+//! two that touch.
 
 /// Gap in radii of the cable below which a sample is a contact. Unknown: what an iterate may bring
 /// near.

@@ -37,8 +37,8 @@ pub(crate) const BLUNTING: f64 = 0.01;
 /// mesh of usual fineness has.
 pub(crate) const HALF_WAVES: f64 = 10.0;
 
-/// Square of the stretch below which an axial law continues it linearly. Derived: 1/4 of the length,
-/// which no cable has but where it is crumpled, and where the law must stay finite.
+/// Square of the stretch below which an axial law continues it linearly. Derived: 1/4 of the
+/// length, which no cable has but where it is crumpled, and where the law must stay finite.
 pub(crate) const CRUMPLED: f64 = 1.0 / 16.0;
 
 /// Added to squares in ratios of changes. Derived: below all squares that count, and with a square

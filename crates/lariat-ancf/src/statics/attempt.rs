@@ -11,10 +11,10 @@ pub struct EquilibriumReport {
     pub iterations: usize,
     /// Largest residual force in N.
     pub residual: f64,
-    /// True if the tangent stiffness is positive definite and the increments of Newton's method fell
-    /// to rounding; false for an unstable or indifferent shape. Thick elements of the projected axial
-    /// rule, which is the default, are unstable where they are compressed by more than 1e-3, although
-    /// the rod is not: use an exact axial rule (`exact-3`) there.
+    /// True if the tangent stiffness is positive definite and the increments of Newton's method
+    /// fell to rounding; false for an unstable or indifferent shape. Thick elements of the
+    /// projected axial rule, which is the default, are unstable where they are compressed by more
+    /// than 1e-3, although the rod is not: use an exact axial rule (`exact-3`) there.
     pub stable: bool,
 }
 

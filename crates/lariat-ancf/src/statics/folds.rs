@@ -11,12 +11,12 @@
 //! points backwards in every element of the node, or if the element runs backwards in its middle
 //! while its ends run forwards.
 //!
-//! A straight element of this rule folds by itself where it is compressed by more than its share delta
-//! of the exact energy: the stiffness of `r' = f + x P_2` is EA (delta f^2 + eps). A thick cable folds
-//! without bending, and may run backwards from there on. So, with bending stiffness, the slope at a
-//! clamp must point along the clamp, and the tangent of an element with EI/(EA l^2) > 1e-4 must turn by
-//! less than 90 degrees in each quarter of it: no beam turns more, its surface would be strained by
-//! 13 % or more.
+//! A straight element of this rule folds by itself where it is compressed by more than its share
+//! delta of the exact energy: the stiffness of `r' = f + x P_2` is EA (delta f^2 + eps). A thick
+//! cable folds without bending, and may run backwards from there on. So, with bending stiffness,
+//! the slope at a clamp must point along the clamp, and the tangent of an element with EI/(EA
+//! l^2) > 1e-4 must turn by less than 90 degrees in each quarter of it: no beam turns more, its
+//! surface would be strained by 13 % or more.
 //!
 //! # Validity
 //!
@@ -63,7 +63,8 @@ fn is_buckled(model: &Model, q: &[f64], e: usize) -> bool {
     is_backward(&middle, &chord(q, e)) || is_backward(&middle, &ends)
 }
 
-/// Returns whether the tangent of a thick element turns by more than 90 degrees within a quarter of it.
+/// Returns whether the tangent of a thick element turns by more than 90 degrees within a quarter of
+/// it.
 fn is_cusped(model: &Model, q: &[f64], e: usize) -> bool {
     let Element { length, section } = model.elements[e];
     let bends = model.rule.bending != BendingRule::None;

@@ -15,10 +15,11 @@
 //! (`continuation`).
 //!
 //! A shape with [folded elements](folds) is straightened once and minimised again; if it folds
-//! again the attempt has failed. A small residual is not enough: the increments of Newton's method must
-//! have fallen to rounding (`polish`), because the axial stiffness hides moments that are out of balance;
-//! and a saddle of the energy is left along its softest mode (`saddle`). A stable shape is preferred, an unstable one is returned if no
-//! stable one is found. The iterations of each attempt and of all together are bounded.
+//! again the attempt has failed. A small residual is not enough: the increments of Newton's method
+//! must have fallen to rounding (`polish`), because the axial stiffness hides moments that are out
+//! of balance; and a saddle of the energy is left along its softest mode (`saddle`). A stable shape
+//! is preferred, an unstable one is returned if no stable one is found. The iterations of each
+//! attempt and of all together are bounded.
 //!
 //! # Validity
 //!

@@ -4,14 +4,14 @@
 //! # Equation
 //!
 //! `K dq = F(q)`. A small residual is no measure of the error of a soft shape: the rounding of the
-//! axial force, of the order of EA times 1e-16, may hide a transverse force that bends a column near
-//! its critical load by its whole deflection. The increment is the error itself, to second order: force
-//! and moment balance of every part is as good as the increment is small.
+//! axial force, of the order of EA times 1e-16, may hide a transverse force that bends a column
+//! near its critical load by its whole deflection. The increment is the error itself, to second
+//! order: force and moment balance of every part is as good as the increment is small.
 //!
 //! # Validity
 //!
-//! Positive definite K, and a start within the range of quadratic convergence, which is checked: each
-//! increment must be at most half of the one before, down to rounding.
+//! Positive definite K, and a start within the range of quadratic convergence, which is checked:
+//! each increment must be at most half of the one before, down to rounding.
 //!
 //! # References
 //!

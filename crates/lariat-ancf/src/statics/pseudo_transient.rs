@@ -6,9 +6,9 @@
 //! `(K + mu M) dq = F(q)`. Large mu follows the gradient of the potential energy in the metric of
 //! mass, mu = 0 is Newton's method. A step is kept if it lowers the energy and the matrix is
 //! positive definite; then mu falls, else it grows. A moment has no potential; it enters by its
-//! work over the step, moment times the angle about its axis by which the tangent rotates. Increments
-//! are capped. The iteration ends by Newton's method alone (`polish`), or on a saddle, which is left
-//! (`saddle`).
+//! work over the step, moment times the angle about its axis by which the tangent rotates.
+//! Increments are capped. The iteration ends by Newton's method alone (`polish`), or on a saddle,
+//! which is left (`saddle`).
 //!
 //! A step that rotates a thin cable stretches it in second order, which costs a large axial energy.
 //! Such a step is not rejected at once: a few more iterations make it the implicit step `F(q + dq)

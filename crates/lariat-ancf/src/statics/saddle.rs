@@ -2,20 +2,21 @@
 //!
 //! # Equation
 //!
-//! `K x = lambda M x` with the lowest lambda, by inverse iteration with `K + mu M`, mu the least of a
-//! geometric sequence that makes it positive definite. If lambda is negative beyond rounding the
-//! equilibrium is a saddle of the potential energy: a straight column above its critical load. A small
-//! displacement along x, to the side to which the residual force points, leads down to a stable shape.
+//! `K x = lambda M x` with the lowest lambda, by inverse iteration with `K + mu M`, mu the least of
+//! a geometric sequence that makes it positive definite. If lambda is negative beyond rounding the
+//! equilibrium is a saddle of the potential energy: a straight column above its critical load. A
+//! small displacement along x, to the side to which the residual force points, leads down to a
+//! stable shape.
 //!
 //! # Validity
 //!
-//! Shapes under forces, which have a potential. A mode without energy (lambda = 0) is not followed: the
-//! shape is indifferent.
+//! Shapes under forces, which have a potential. A mode without energy (lambda = 0) is not followed:
+//! the shape is indifferent.
 //!
 //! # References
 //!
-//! Parlett 1998, section 4.2 (inverse iteration); Wriggers, Wagner & Miehe 1988 (perturbation by the
-//! eigenvector at a bifurcation).
+//! Parlett 1998, section 4.2 (inverse iteration); Wriggers, Wagner & Miehe 1988 (perturbation by
+//! the eigenvector at a bifurcation).
 
 use super::attempt::{Budget, largest_change};
 use super::pseudo_transient::Minimisation;
@@ -40,8 +41,8 @@ impl Minimisation<'_> {
             mu *= GROWTH;
         }
         let Self { equations, rhs, step, inertia, .. } = self;
-        // a start with a share of every mode, the same in every run; of equal modes the one that the
-        // residual force points to
+        // a start with a share of every mode, the same in every run; of equal modes the one that
+        // the residual force points to
         let force = rhs.iter().fold(0.0f64, |most, f| most.max(f.abs())).max(f64::MIN_POSITIVE);
         let mut seed = 1u64;
         for (x, f) in step.iter_mut().zip(rhs.iter()) {

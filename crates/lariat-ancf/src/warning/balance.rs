@@ -71,8 +71,9 @@ impl CableAccount {
 }
 
 impl Cable {
-    /// Returns the energy balance since the cable is [watched](Self::set_watched): its own, or of the first cable of an [island](crate::island) that of
-    /// all that moves together with it; `None` if it is not watched.
+    /// Returns the energy balance since the cable is [watched](Self::set_watched): its own, or of
+    /// the first cable of an [island](crate::island) that of all that moves together with it;
+    /// `None` if it is not watched.
     pub fn energy_balance(&self) -> Option<EnergyBalance> {
         self.watch.as_deref().map(|watch| watch.account.balance)
     }

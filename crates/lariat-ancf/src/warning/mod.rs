@@ -1,7 +1,9 @@
-//! Warnings: what a cable says about its own mesh, steps, law and sizes, where they are probably not good enough.
+//! Warnings: what a cable says about its own mesh, steps, law and sizes, where they are probably
+//! not good enough.
 //!
-//! A warning changes no result. It says where, how much, and what to do. [`Cable::warnings`](crate::Cable::warnings) judges the
-//! present state, a [`Watch`] all host steps that it notes; [`Cable::set_watched`](crate::Cable::set_watched) lets a cable note its own.
+//! A warning changes no result. It says where, how much, and what to do.
+//! [`Cable::warnings`](crate::Cable::warnings) judges the present state, a [`Watch`] all host steps
+//! that it notes; [`Cable::set_watched`](crate::Cable::set_watched) lets a cable note its own.
 //!
 //! | file | what it judges |
 //! |---|---|
@@ -148,7 +150,8 @@ pub enum Warning {
         /// Rate over the speed of transverse waves.
         ratio: f64,
     },
-    /// Its load may have exceeded what it withstands between two integration steps, and none of them saw it.
+    /// Its load may have exceeded what it withstands between two integration steps, and none of
+    /// them saw it.
     #[error(
         "cable {cable:?}: near {time_s:.4} s its load came to {share:.2} of what it withstands, and with steps of {step_s:.1e} s may have come to {reached:.2} of it between two \
          steps: whether it breaks there is not resolved; try shorter steps, or a tolerance"
@@ -266,7 +269,8 @@ pub enum Warning {
         ratio: f64,
         /// Unstretched length in m.
         length_m: f64,
-        /// Outer diameter or side in m; without a section that of the solid round one with the same EI/EA.
+        /// Outer diameter or side in m; without a section that of the solid round one with the same
+        /// EI/EA.
         diameter_m: f64,
     },
     /// Thicker than any cable.

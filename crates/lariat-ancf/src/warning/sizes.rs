@@ -2,12 +2,15 @@
 //!
 //! # Validity
 //!
-//! Sources of the limits: below ten times its thickness a rod shears visibly (the deflection of a Timoshenko cantilever, nu = 0.3, is 0.8 %
-//! above Euler's at 10, 3 % at 5); the softest technical elastomers have 1e5 Pa; waves along a rod run at 10 m/s in them, and at 1200 m/s
-//! (lead) to 5200 m/s (steel, aluminium) in metals, of which a thousandth is left where a modulus in MPa is read in Pa; none is faster than
-//! 36000 m/s in any solid (Trachenko et al., Sci. Adv. 6 (2020) eabc8662: fine-structure constant and ratio of masses of electron and proton; diamond
-//! has 18000), and 32 times as fast a wave is where a density in g/cm^3 is read in kg/m^3; the lightest foams have 10 kg/m^3; the thickest cables are
-//! those of suspension bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
+//! Sources of the limits: below ten times its thickness a rod shears visibly (the deflection of a
+//! Timoshenko cantilever, nu = 0.3, is 0.8 % above Euler's at 10, 3 % at 5); the softest technical
+//! elastomers have 1e5 Pa; waves along a rod run at 10 m/s in them, and at 1200 m/s (lead) to 5200
+//! m/s (steel, aluminium) in metals, of which a thousandth is left where a modulus in MPa is read
+//! in Pa; none is faster than 36000 m/s in any solid (Trachenko et al., Sci. Adv. 6 (2020)
+//! eabc8662: fine-structure constant and ratio of masses of electron and proton; diamond has
+//! 18000), and 32 times as fast a wave is where a density in g/cm^3 is read in kg/m^3; the lightest
+//! foams have 10 kg/m^3; the thickest cables are those of suspension bridges (Akashi Kaikyo: 1.12
+//! m) and the thickest pipelines 1.42 m (56 inches).
 
 use super::Warning;
 use crate::scales::watch::{FASTEST, LIGHTEST, SLENDERNESS, SLOWEST, SOFTEST, THICKEST};

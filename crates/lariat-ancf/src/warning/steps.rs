@@ -1,18 +1,22 @@
-//! Whether integration steps are short enough for the motion, read from the velocities at host times.
+//! Whether integration steps are short enough for the motion, read from the velocities at host
+//! times.
 //!
 //! # Equation
 //!
-//! A second-order method turns an oscillation of frequency omega by `(omega h)^2/12` of its angle too little (trapezoidal and midpoint
-//! rule, and the discrete gradient, which is both for a linear force), so after one oscillation of a point with velocity v the point is
+//! A second-order method turns an oscillation of frequency omega by `(omega h)^2/12` of its angle
+//! too little (trapezoidal and midpoint rule, and the discrete gradient, which is both for a linear
+//! force), so after one oscillation of a point with velocity v the point is
 //!
 //! ```text
 //! E = 2 pi (omega h)^2/12 |v|/omega = pi/6 h^2 omega |v|
 //! ```
 //!
-//! off. The frequency is that of the motion itself: `omega^2 = |v''|/|v|`, exact for one mode at every time, with `H^2 v'' = (v(t + 2 H) -
-//! 2 v(t) + v(t - 2 H))/4`, H the host step, h = H/n with n integration steps in each. The difference over two host steps is
-//! the product of the second difference and of the mean `(1, 2, 1)/4`, which takes away what alternates from step to step: the
-//! ringing of modes far beyond the step, whose amplitude is small and whose phase nobody sees. So
+//! off. The frequency is that of the motion itself: `omega^2 = |v''|/|v|`, exact for one mode at
+//! every time, with `H^2 v'' = (v(t + 2 H) - 2 v(t) + v(t - 2 H))/4`, H the host step, h = H/n with
+//! n integration steps in each. The difference over two host steps is the product of the second
+//! difference and of the mean `(1, 2, 1)/4`, which takes away what alternates from step to step:
+//! the ringing of modes far beyond the step, whose amplitude is small and whose phase nobody sees.
+//! So
 //!
 //! ```text
 //! E = pi/6 H/n^2 sqrt(|H^2 v''| |v|)
@@ -20,14 +24,17 @@
 //!
 //! # Validity
 //!
-//! Methods of second order with fixed steps, by their mean length where some are divided; those with a tolerance control their own error. Uniform acceleration has no error, and a jump
-//! of the velocity by `dv`, as in a taut snap, gives about `h dv/4`: such a step is of first order. E is the error of one oscillation;
-//! over many it adds up, and one that is forced keeps it. For Verlet it is twice the error; for the generalised-alpha method with strong
-//! damping, less than it, but its loss of energy is told.
+//! Methods of second order with fixed steps, by their mean length where some are divided; those
+//! with a tolerance control their own error. Uniform acceleration has no error, and a jump of the
+//! velocity by `dv`, as in a taut snap, gives about `h dv/4`: such a step is of first order. E is
+//! the error of one oscillation; over many it adds up, and one that is forced keeps it. For Verlet
+//! it is twice the error; for the generalised-alpha method with strong damping, less than it, but
+//! its loss of energy is told.
 //!
 //! # References
 //!
-//! Relative period errors: Hughes, The Finite Element Method, 1987, section 9.1 (trapezoidal rule: `(omega h)^2/12`).
+//! Relative period errors: Hughes, The Finite Element Method, 1987, section 9.1 (trapezoidal rule:
+//! `(omega h)^2/12`).
 //!
 //! # Alternatives considered
 //!

@@ -2,9 +2,11 @@
 //!
 //! # Validity
 //!
-//! Limits of the error of position: 2e-3 of the length, and a tenth of the largest displacement. Both were found on 30 scenes: what exceeds
-//! them was off by 0.2 to 11 % of the length, what does not by less than 0.25 %. A mesh is judged as
-//! [`Cable::mesh_indicator`](crate::coupling::Linearisation::mesh_indicator) says, steps as `steps` says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
+//! Limits of the error of position: 2e-3 of the length, and a tenth of the largest displacement.
+//! Both were found on 30 scenes: what exceeds them was off by 0.2 to 11 % of the length, what does
+//! not by less than 0.25 %. A mesh is judged as
+//! [`Cable::mesh_indicator`](crate::coupling::Linearisation::mesh_indicator) says, steps as `steps`
+//! says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
 use super::{Warning, sizes};
 use crate::cable::Cable;
@@ -15,7 +17,8 @@ use crate::watch::{Contacts, Estimate, Verdict, Watch};
 /// A law that judges the readings; the error (m) that is asked for takes the place of its limit.
 type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
-/// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run only.
+/// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
+/// only.
 const LAWS: [(Law, bool); 14] = [
     (Watch::strain, true),
     (Watch::mesh, true),
@@ -42,7 +45,8 @@ impl Watch {
         Watch { start: Some(cable.positions().to_vec()), ..Watch::default() }
     }
 
-    /// Begins with a cable whose shape is a guess, as that of a cable before statics: its displacement says nothing.
+    /// Begins with a cable whose shape is a guess, as that of a cable before statics: its
+    /// displacement says nothing.
     pub fn from_guess() -> Self {
         Watch::default()
     }
@@ -80,19 +84,21 @@ impl Watch {
         self.contacts.note(cable);
     }
 
-    /// Returns the warnings about what was noted. If an error of positions (m) is asked for, that is the limit of the mesh, and only of its
-    /// indicator: a [study](crate::study) judges what nodes cannot, and chooses the steps.
+    /// Returns the warnings about what was noted. If an error of positions (m) is asked for, that
+    /// is the limit of the mesh, and only of its indicator: a [study](crate::study) judges what
+    /// nodes cannot, and chooses the steps.
     pub fn warnings(&self, cable: &Cable, error: Option<f64>) -> Vec<Warning> {
         LAWS.iter().filter_map(|(law, _)| law(self, cable, error)).collect()
     }
 
-    /// Calls `tell` with each warning that is due and was not told yet, about sizes first; those that only a whole run can judge are left to
-    /// [`warnings`](Self::warnings).
+    /// Calls `tell` with each warning that is due and was not told yet, about sizes first; those
+    /// that only a whole run can judge are left to [`warnings`](Self::warnings).
     pub fn raise(&mut self, cable: &Cable, tell: impl FnMut(Warning)) {
         self.told |= self.due(cable, self.told, tell);
     }
 
-    /// Returns the laws that are due beyond those that are `known`, by bit, and calls `tell` with their warnings.
+    /// Returns the laws that are due beyond those that are `known`, by bit, and calls `tell` with
+    /// their warnings.
     fn due(&self, cable: &Cable, known: u16, mut tell: impl FnMut(Warning)) -> u16 {
         let mut new = 0;
         if known & SIZES == 0 {
@@ -142,7 +148,8 @@ impl Watch {
 
     fn single_elements(&self, cable: &Cable, error: Option<f64>) -> Option<Warning> {
         (error.is_none() && self.turn > TURN).then(|| {
-            // an arc of this angle, divided into k elements, has the indicator h turn^3/(96 k^4), h its length
+            // an arc of this angle, divided into k elements, has the indicator h turn^3/(96 k^4), h
+            // its length
             let parts = (self.turn.powi(3) / (96.0 * 0.5 * ERROR)).powf(0.25).max(2.0);
             let elements = cable.elements().len();
             let enough = (elements as f64 * parts).ceil().clamp(4.0, MOST) as usize;
@@ -199,8 +206,9 @@ impl Watch {
 }
 
 impl Cable {
-    /// Returns the warnings about the cable: those of all host steps since it is [watched](Self::set_watched); else those of its present
-    /// shape and tension. Warnings about section and material are always among them.
+    /// Returns the warnings about the cable: those of all host steps since it is
+    /// [watched](Self::set_watched); else those of its present shape and tension. Warnings about
+    /// section and material are always among them.
     pub fn warnings(&self) -> Vec<Warning> {
         let noted = self.watch.as_deref().map(|watch| watch.warnings(self, None));
         let noted = noted.unwrap_or_else(|| {
@@ -239,9 +247,11 @@ impl Cable {
         sections.flat_map(|element| sizes::warnings(self.name(), &element.section, self.length()))
     }
 
-    /// Lets the cable read itself after each of its host steps, or no longer: [`warnings`](Self::warnings) are then those of all of them, and
-    /// [`Diagnostics::warnings`](crate::Diagnostics::warnings) counts them. Displacements are counted from now. Default: not, which costs
-    /// nothing; a `CableSet` of lariat-rapier watches its cables.
+    /// Lets the cable read itself after each of its host steps, or no longer:
+    /// [`warnings`](Self::warnings) are then those of all of them, and
+    /// [`Diagnostics::warnings`](crate::Diagnostics::warnings) counts them. Displacements are
+    /// counted from now. Default: not, which costs nothing; a `CableSet` of lariat-rapier watches
+    /// its cables.
     pub fn set_watched(&mut self, watched: bool) {
         self.watch = watched.then(|| {
             let mut watch = Watch::new(self);
@@ -255,7 +265,8 @@ impl Cable {
         self.watch.is_some()
     }
 
-    /// Reads the cable at the end of one of its own steps, if it is watched, and counts the warnings that are new.
+    /// Reads the cable at the end of one of its own steps, if it is watched, and counts the
+    /// warnings that are new.
     pub(crate) fn note_step(&mut self) {
         self.note_with(true);
     }
@@ -285,8 +296,9 @@ impl Cable {
     }
 }
 
-/// Returns a number of elements that makes an error `factor` times smaller, if it falls with the power 2.5 of the element length: smooth
-/// shapes that are resolved converge with 3 to 4, the falling pendulum from 2 to 8 elements with 2 to 3.
+/// Returns a number of elements that makes an error `factor` times smaller, if it falls with the
+/// power 2.5 of the element length: smooth shapes that are resolved converge with 3 to 4, the
+/// falling pendulum from 2 to 8 elements with 2 to 3.
 fn more(elements: usize, factor: f64) -> usize {
     (elements as f64 * factor.powf(0.4)).ceil().min(MOST) as usize
 }

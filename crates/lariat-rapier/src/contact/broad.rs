@@ -2,9 +2,11 @@
 //!
 //! # Validity
 //!
-//! A cable is boxed by eight elements at a time, each box grown by its way in the step and by that of the fastest dynamic body, the radius and
-//! Rapier's prediction distance. The tree holds the boxes of Rapier's last step: kinematic bodies that move are looked up besides, with the box that they sweep. Before Rapier's first step,
-//! and while it does not know all colliders, every one of them is looked at.
+//! A cable is boxed by eight elements at a time, each box grown by its way in the step and by that
+//! of the fastest dynamic body, the radius and Rapier's prediction distance. The tree holds the
+//! boxes of Rapier's last step: kinematic bodies that move are looked up besides, with the box that
+//! they sweep. Before Rapier's first step, and while it does not know all colliders, every one of
+//! them is looked at.
 
 use super::neighbours::Neighbours;
 use super::{Surfaces, key};
@@ -39,7 +41,8 @@ pub(crate) struct Finder {
     listed: bool,
     /// Largest speed in m/s of a point of a dynamic body that is awake.
     fastest: f64,
-    /// Cables and the dynamic bodies that they can reach in the present Rapier step, in ascending order.
+    /// Cables and the dynamic bodies that they can reach in the present Rapier step, in ascending
+    /// order.
     pub touching: Vec<(usize, RigidBodyHandle)>,
     /// Cables that can reach each other in it.
     pub neighbours: Neighbours,
@@ -47,8 +50,8 @@ pub(crate) struct Finder {
 }
 
 impl Finder {
-    /// Begins a Rapier step: finds the colliders that move as prescribed, and the dynamic bodies that cables can reach. Does nothing if no cable
-    /// has contact.
+    /// Begins a Rapier step: finds the colliders that move as prescribed, and the dynamic bodies
+    /// that cables can reach. Does nothing if no cable has contact.
     pub fn begin(&mut self, contents: &Contents, world: &PhysicsWorld, h: f64) {
         self.moving.clear();
         self.touching.clear();
@@ -107,8 +110,10 @@ impl Finder {
         self.known = Some(world.colliders.len());
     }
 
-    /// Gives a cable of an island the colliders that it can reach in a Rapier step of `h` (s), at a share of the host step, as obstacles, and returns whether one moves, or one that it touched is gone. A
-    /// collider with a shape of the program's own in which the cable is found is an event, once.
+    /// Gives a cable of an island the colliders that it can reach in a Rapier step of `h` (s), at a
+    /// share of the host step, as obstacles, and returns whether one moves, or one that it touched
+    /// is gone. A collider with a shape of the program's own in which the cable is found is an
+    /// event, once.
     pub fn gather(
         &mut self,
         contents: &mut Contents,
@@ -312,8 +317,9 @@ fn mount(world: &PhysicsWorld, collider: &Collider, island: &Island, parent: Rig
     Some(Mount { body, position: vector(local.translation) - centre, rotation: rotation(local.rotation) })
 }
 
-/// Returns the pieces of a cable at its attachments to the body of a collider, which do not touch it: four radii on both sides, and as much more
-/// as an anchor is deep inside; `depth` of a point in the axes of the collider, in m, is negative outside.
+/// Returns the pieces of a cable at its attachments to the body of a collider, which do not touch
+/// it: four radii on both sides, and as much more as an anchor is deep inside; `depth` of a point
+/// in the axes of the collider, in m, is negative outside.
 pub(crate) fn held_pieces(
     contents: &Contents,
     cable: CableHandle,

@@ -2,13 +2,15 @@
 //!
 //! # Equation
 //!
-//! At distance s of a point of the side from the axis, along the normal, the radius of curvature is `s/cos b` with the half angle b of the
-//! apex; the other curvature is zero. So the patch is the cylinder along the generator whose axis passes through the foot of the normal on
-//! the cone's axis.
+//! At distance s of a point of the side from the axis, along the normal, the radius of curvature is
+//! `s/cos b` with the half angle b of the apex; the other curvature is zero. So the patch is the
+//! cylinder along the generator whose axis passes through the foot of the normal on the cone's
+//! axis.
 //!
 //! # Validity
 //!
-//! A cable meets the side by its samples, however sharp it is: near the tip it may sink in by a part of its radius.
+//! A cable meets the side by its samples, however sharp it is: near the tip it may sink in by a
+//! part of its radius.
 
 use ::nalgebra::Vector3;
 use lariat_ancf::contact::{Feature, FeatureShape, Nearest, Patch, Surface};

@@ -6,7 +6,8 @@ use crate::events::Event;
 use crate::handle::CableHandle;
 use lariat_ancf::Cable;
 
-/// What a cable touches: key of the collider, sum of the normal forces in N, and the arc length in m of their centre.
+/// What a cable touches: key of the collider, sum of the normal forces in N, and the arc length in
+/// m of their centre.
 type Touched = (u64, f64, f64);
 
 /// Compares what cables touch with what they touched at the end of the last host step.

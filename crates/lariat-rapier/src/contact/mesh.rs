@@ -1,9 +1,11 @@
-//! Triangle meshes, hulls and height fields: the nearest triangle by parry's tree, its geometry in `f64`.
+//! Triangle meshes, hulls and height fields: the nearest triangle by parry's tree, its geometry in
+//! `f64`.
 //!
 //! # Validity
 //!
-//! Vertices are exact in `f64`. Both sides of a triangle are its outside, but for a hull, whose triangles know theirs. An edge is sharp, and a
-//! feature, if it has one triangle, or two that meet with an outward angle above [`FLAT`]; edges that point inwards are none.
+//! Vertices are exact in `f64`. Both sides of a triangle are its outside, but for a hull, whose
+//! triangles know theirs. An edge is sharp, and a feature, if it has one triangle, or two that meet
+//! with an outward angle above [`FLAT`]; edges that point inwards are none.
 
 use crate::convert::{to_vector, vector};
 use crate::scales::contact::FLAT;
@@ -78,7 +80,8 @@ impl Mesh {
         self.owned.push((owner, Feature { id: self.owned.len() as u32, shape, radius: 0.0 }));
     }
 
-    /// Returns whether an edge stands out between its triangles, seen from a side on which neither hides it.
+    /// Returns whether an edge stands out between its triangles, seen from a side on which neither
+    /// hides it.
     fn is_sharp(&self, edge: (u32, u32), of: &[u32]) -> bool {
         let [one, two] = of else { return true };
         let [n1, n2] = [*one, *two].map(|t| self.normals[t as usize]);
@@ -108,7 +111,8 @@ impl Mesh {
     }
 }
 
-/// Returns whether a place at a distance (m) that is on the border of a triangle is within its face: the way there is along the normal.
+/// Returns whether a place at a distance (m) that is on the border of a triangle is within its
+/// face: the way there is along the normal.
 fn is_within(face: &Nearest, distance: f64) -> bool {
     (face.distance.abs() - distance).abs() <= FLAT * FLAT * distance
 }

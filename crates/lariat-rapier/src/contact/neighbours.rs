@@ -2,14 +2,16 @@
 //!
 //! # Method
 //!
-//! A cable that touches cables is boxed by eight elements at a time: their Bezier points, now and after twice the way of the step, grown by some radii. Cables whose
-//! boxes meet are a pair. What a cable does within the step is not known before, so the boxes that it really swept are compared afterwards: if two met
-//! that were no pair, they become one, and the step begins anew.
+//! A cable that touches cables is boxed by eight elements at a time: their Bezier points, now and
+//! after twice the way of the step, grown by some radii. Cables whose boxes meet are a pair. What a
+//! cable does within the step is not known before, so the boxes that it really swept are compared
+//! afterwards: if two met that were no pair, they become one, and the step begins anew.
 //!
 //! # Validity
 //!
-//! A cable that leaves the hull of its beginning and its end within the step, and is back by then, may be missed. The order of pairs does not depend on the order of
-//! insertion once they are numbered within an island.
+//! A cable that leaves the hull of its beginning and its end within the step, and is back by then,
+//! may be missed. The order of pairs does not depend on the order of insertion once they are
+//! numbered within an island.
 
 use crate::contents::rules::ContactRules;
 use crate::contents::{Contents, Slot};
@@ -34,12 +36,14 @@ pub(crate) struct Neighbours {
     boxes: Vec<Boxed>,
     active: Vec<usize>,
     found: Vec<[usize; 2]>,
-    /// The pairs of the present Rapier step by the indices of cables, in ascending order, with the friction between them.
+    /// The pairs of the present Rapier step by the indices of cables, in ascending order, with the
+    /// friction between them.
     pub pairs: Vec<CablePair>,
 }
 
 impl Neighbours {
-    /// Begins a Rapier step of `h` (s): finds the pairs. Does nothing unless two cables touch cables.
+    /// Begins a Rapier step of `h` (s): finds the pairs. Does nothing unless two cables touch
+    /// cables.
     pub fn begin(&mut self, contents: &Contents, h: f64) {
         self.pairs.clear();
         self.boxes.clear();
@@ -54,8 +58,9 @@ impl Neighbours {
         self.take(contents);
     }
 
-    /// Adds the pairs that the islands met in a step and that were not known, and returns whether there are any. `before` returns the coordinates
-    /// before the step, by island and cable in it; `None` for an island that did not move.
+    /// Adds the pairs that the islands met in a step and that were not known, and returns whether
+    /// there are any. `before` returns the coordinates before the step, by island and cable in it;
+    /// `None` for an island that did not move.
     pub fn complete<'a>(
         &mut self,
         contents: &Contents,

@@ -157,8 +157,9 @@ mod tests {
         ]
     }
 
-    /// The surface of every shape has the distances that parry computes, with patches that have them too, and whose normal is the way
-    /// from parry's nearest point; no feature is nearer than the surface, and a ball that holds a point of it may meet it.
+    /// The surface of every shape has the distances that parry computes, with patches that have
+    /// them too, and whose normal is the way from parry's nearest point; no feature is nearer than
+    /// the surface, and a ball that holds a point of it may meet it.
     ///
     /// *Source.* parry's projection of points, to its precision.
     #[test]
@@ -168,7 +169,8 @@ mod tests {
             let mut compared = 0;
             // parry makes one face of a hull of triangles that are nearly in a plane
             let rounding = if name.contains("hull") { 2e-4 } else { 2e-5 };
-            // its projection on a rounded shape iterates and is 2e-3 m off at the corner of a box: that on the shape within is exact
+            // its projection on a rounded shape iterates and is 2e-3 m off at the corner of a box:
+            // that on the shape within is exact
             let (within, border): (&dyn Shape, Real) = match shape.as_typed_shape() {
                 TypedShape::RoundCuboid(round) => (&round.inner_shape, round.border_radius),
                 TypedShape::RoundCylinder(round) => (&round.inner_shape, round.border_radius),
@@ -226,7 +228,8 @@ mod tests {
 
     /// The distance from a rounded box is that from the box less the border.
     ///
-    /// *Source.* By hand: the corner is at (0.3, 0.2, 0.4) m, the point 0.5, 0.6 and 0.4 m beyond it.
+    /// *Source.* By hand: the corner is at (0.3, 0.2, 0.4) m, the point 0.5, 0.6 and 0.4 m beyond
+    /// it.
     #[test]
     fn a_rounded_box_is_its_border_nearer() {
         let surface = surface(&*SharedShape::round_cuboid(0.3, 0.2, 0.4, 0.05)).unwrap();
@@ -234,7 +237,8 @@ mod tests {
         assert!((distance - (0.77f64.sqrt() - 0.05)).abs() < 1e-7, "{distance}");
     }
 
-    /// A box as a mesh and as a hull has its twelve edges and eight corners as features, and none within its faces.
+    /// A box as a mesh and as a hull has its twelve edges and eight corners as features, and none
+    /// within its faces.
     ///
     /// *Source.* Geometry.
     #[test]

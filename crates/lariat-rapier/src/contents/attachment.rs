@@ -32,7 +32,8 @@ impl AttachmentKind {
         AttachmentOptions { kind: self, gap, direction: None }
     }
 
-    /// Attaches with the tangent, towards growing arc length, along `direction` (body axes, any length). A ball has no direction.
+    /// Attaches with the tangent, towards growing arc length, along `direction` (body axes, any
+    /// length). A ball has no direction.
     pub fn along(self, direction: impl Into<Point>) -> AttachmentOptions {
         AttachmentOptions { kind: self, direction: Some(direction.into().0), ..AttachmentOptions::default() }
     }
@@ -82,8 +83,8 @@ pub struct AttachmentOptions {
     pub kind: AttachmentKind,
     /// What to do if the cable is not at the anchor. Default: reject gaps of more than 1e-3 m.
     pub gap: Gap,
-    /// Direction of the tangent in body axes, for a clamp. Default: that of the cable where it is attached, of a slack cable as it was laid
-    /// that of the drawing.
+    /// Direction of the tangent in body axes, for a clamp. Default: that of the cable where it is
+    /// attached, of a slack cable as it was laid that of the drawing.
     pub direction: Option<Vector3<f64>>,
 }
 

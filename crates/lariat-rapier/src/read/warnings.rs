@@ -36,8 +36,8 @@ pub enum Warning {
         /// Its warning.
         warning: lariat_ancf::Warning,
     },
-    /// A cable runs through a collider of a body that it is not attached to, or, with contact, of one that it is attached to, beyond what
-    /// the attachment itself needs.
+    /// A cable runs through a collider of a body that it is not attached to, or, with contact, of
+    /// one that it is attached to, beyond what the attachment itself needs.
     #[error(
         "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider{}; check the points of the cable and the place of the collider",
         if *.own {

@@ -14,9 +14,10 @@ use rapier::pipeline::PhysicsWorld;
 impl CableSet {
     /// Attaches a point of a cable to a point of a body (body axes from its origin, in m). A node
     /// is inserted there if there is none. The two points may be up to 1e-3 m apart, or as far as
-    /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and body
-    /// have now, or holds the tangent in a [direction](crate::AttachmentKind::along): a cable at rest at time 0 takes the shape
-    /// of equilibrium between its clamps. At an end of a slack cable as it was laid, the direction is that of the drawing.
+    /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and
+    /// body have now, or holds the tangent in a [direction](crate::AttachmentKind::along): a cable
+    /// at rest at time 0 takes the shape of equilibrium between its clamps. At an end of a slack
+    /// cable as it was laid, the direction is that of the drawing.
     ///
     /// # Errors
     /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],

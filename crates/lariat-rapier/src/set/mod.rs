@@ -215,9 +215,10 @@ impl CableSet {
         self.equilibrium_under(world, &[])
     }
 
-    /// Moves cables and bodies to static equilibrium as [`equilibrium`](Self::equilibrium) does, under further forces that keep their
-    /// direction and act at points of bodies, whose torque turns with the body. Forces that Rapier's bodies have are constant, with their
-    /// torque. A run that is to stay there must apply the further forces itself.
+    /// Moves cables and bodies to static equilibrium as [`equilibrium`](Self::equilibrium) does,
+    /// under further forces that keep their direction and act at points of bodies, whose torque
+    /// turns with the body. Forces that Rapier's bodies have are constant, with their torque. A run
+    /// that is to stay there must apply the further forces itself.
     ///
     /// # Errors
     /// As [`equilibrium`](Self::equilibrium); [`Error::Cable`] for numbers that are not finite.

@@ -1,9 +1,9 @@
 //! Static equilibrium of the cables of a set and the bodies that they carry.
 //!
 //! # Scheme
-//! Each island is solved by [`lariat_ancf::island::equilibrium`], with six unknowns per dynamic body.
-//! Fixed, kinematic and disabled bodies hold their cables where they are. Everything is written back
-//! only when all islands are in equilibrium.
+//! Each island is solved by [`lariat_ancf::island::equilibrium`], with six unknowns per dynamic
+//! body. Fixed, kinematic and disabled bodies hold their cables where they are. Everything is
+//! written back only when all islands are in equilibrium.
 //!
 //! # Validity
 //! No joints and no contacts of bodies: a body that has one is an error, before or after the

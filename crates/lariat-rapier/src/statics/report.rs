@@ -14,8 +14,8 @@ pub struct Equilibrium {
     pub moved: Vec<RigidBodyHandle>,
     /// Attached bodies that were held where they are: fixed, kinematic, disabled or without mass.
     pub held: Vec<RigidBodyHandle>,
-    /// Dynamic bodies that no cable is attached to: they were left where they are, and nothing that acts
-    /// on them was looked at.
+    /// Dynamic bodies that no cable is attached to: they were left where they are, and nothing that
+    /// acts on them was looked at.
     pub unattached: Vec<RigidBodyHandle>,
 }
 

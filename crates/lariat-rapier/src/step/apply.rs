@@ -50,8 +50,9 @@ pub(crate) fn apply(
     prediction.groups.iter().for_each(|group| groups::apply(world, prediction, group, h));
 }
 
-/// Makes Rapier move a body uniformly to its predicted position and attitude. `reaction` is the part of its reaction estimate
-/// that moves it. A body that joints hold gets its velocity with its [group](groups).
+/// Makes Rapier move a body uniformly to its predicted position and attitude. `reaction` is the
+/// part of its reaction estimate that moves it. A body that joints hold gets its velocity with its
+/// [group](groups).
 fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector6<f64>) -> AppliedMotion {
     let &BodyStep { handle, start, end, mechanism, h } = step;
     let gravity = world.gravity;
@@ -93,8 +94,9 @@ fn apply_prediction(world: &mut PhysicsWorld, step: &BodyStep, reaction: &Vector
     applied
 }
 
-/// Keeps Rapier from putting a body to sleep within a step of `h` (s) that is longer than the time for which a body must be slow: it compares the
-/// poses before and after the step alone, and a load that swings may come back to its place. Whether it rests is decided after the step.
+/// Keeps Rapier from putting a body to sleep within a step of `h` (s) that is longer than the time
+/// for which a body must be slow: it compares the poses before and after the step alone, and a load
+/// that swings may come back to its place. Whether it rests is decided after the step.
 fn stay_awake(body: &mut RigidBody, h: Real) {
     let until = body.activation().time_until_sleep;
     if h >= until {

@@ -1,14 +1,17 @@
 //! A limit to the work of a host step.
 //!
 //! # Scheme
-//! An island is integrated by its own integrator until it has spent its budget in this host step. What is left of the host step is then
-//! integrated by the discrete gradient with one Newton iteration per step of 1/240 s, which [cannot make energy](WorkLimit) but has errors
-//! without a bound. Where even that does not do, the island stays behind: cables and bodies move less far than the host step is
-//! long, and go on in the next one. An [`Event::Degraded`](crate::Event::Degraded) names the cables.
+//! An island is integrated by its own integrator until it has spent its budget in this host step.
+//! What is left of the host step is then integrated by the discrete gradient with one Newton
+//! iteration per step of 1/240 s, which [cannot make energy](WorkLimit) but has errors without a
+//! bound. Where even that does not do, the island stays behind: cables and bodies move less far
+//! than the host step is long, and go on in the next one. An
+//! [`Event::Degraded`](crate::Event::Degraded) names the cables.
 //!
 //! # Validity
-//! The budget is that of integration; Rapier's own steps, whose number [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps)
-//! bounds, are not in it. By how much it can be exceeded: [`WorkLimit`].
+//! The budget is that of integration; Rapier's own steps, whose number
+//! [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) bounds, are not in it. By how
+//! much it can be exceeded: [`WorkLimit`].
 
 use crate::scales::step::CHEAPEST_STEP;
 use lariat_ancf::integrate::{IntegratorRef, OneStep, WorkLimit};

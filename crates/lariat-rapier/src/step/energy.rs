@@ -6,28 +6,33 @@
 //! made = change of (balance of the cables + T + C) - f . dx - tau . theta - sum F . (g0 - g1)
 //! ```
 //!
-//! over the integration of a Rapier step, from the state that it began with to the one that it predicted: T kinetic energy of
-//! the bodies, C that of what mechanisms make them carry, f and tau the forces and torques on them (constant in the step:
-//! gravity, the user's, and the reaction estimate, by which contacts and joints take part), dx and theta how they moved and
-//! turned, F the mean force at a pin and g its gap. Under the discrete gradient it is the energy law of the island.
+//! over the integration of a Rapier step, from the state that it began with to the one that it
+//! predicted: T kinetic energy of the bodies, C that of what mechanisms make them carry, f and tau
+//! the forces and torques on them (constant in the step: gravity, the user's, and the reaction
+//! estimate, by which contacts and joints take part), dx and theta how they moved and turned, F the
+//! mean force at a pin and g its gap. Under the discrete gradient it is the energy law of the
+//! island.
 //!
 //! # Validity
 //!
-//! What Rapier's step makes of the prediction is between two such steps, and no energy of integration: impulses of contacts
-//! and joints, damping of bodies, the motors that let them feel their cables; and so is what a user does. The impact of a
-//! cable that follows a body whose velocity jumped is dissipation. Where a gap closes, the work of its force is uncertain by
-//! how much that differs from its mean: of bodies in contact, which Rapier moves a little in each step, that adds up to
-//! some per cent of the energy in a second, and only what is more is told.
+//! What Rapier's step makes of the prediction is between two such steps, and no energy of
+//! integration: impulses of contacts and joints, damping of bodies, the motors that let them feel
+//! their cables; and so is what a user does. The impact of a cable that follows a body whose
+//! velocity jumped is dissipation. Where a gap closes, the work of its force is uncertain by how
+//! much that differs from its mean: of bodies in contact, which Rapier moves a little in each step,
+//! that adds up to some per cent of the energy in a second, and only what is more is told.
 //!
-//! By the energy law, which counts the residual of the step itself, islands are judged whatever acts on their cables: contacts,
-//! reels, sheaves, drums. By the other methods, those with sheaves, drums or contact are not: the works of these are not known.
-//! Islands in which a cable is not watched are not judged.
+//! By the energy law, which counts the residual of the step itself, islands are judged whatever
+//! acts on their cables: contacts, reels, sheaves, drums. By the other methods, those with sheaves,
+//! drums or contact are not: the works of these are not known. Islands in which a cable is not
+//! watched are not judged.
 //!
 //! # Alternatives considered
 //!
-//! The energy of the world from host step to host step, with the work of Rapier by the deviation of bodies at their mean
-//! velocity: contacts act within Rapier's substeps, on cables through the impedance of the step, and that is of the first
-//! order in the step: a right run had 1e-3 of its energy made.
+//! The energy of the world from host step to host step, with the work of Rapier by the deviation of
+//! bodies at their mean velocity: contacts act within Rapier's substeps, on cables through the
+//! impedance of the step, and that is of the first order in the step: a right run had 1e-3 of its
+//! energy made.
 
 use crate::contents::Contents;
 use crate::convert::vector;
@@ -79,7 +84,8 @@ fn is_by_law(prediction: &Prediction) -> bool {
     prediction.integrator.is_some_and(|integrator| integrator.method.uses_discrete_gradients())
 }
 
-/// Adds what integration made of an island in a Rapier step of `h` (s) to the balance of its first cable. Its cables are as predicted.
+/// Adds what integration made of an island in a Rapier step of `h` (s) to the balance of its first
+/// cable. Its cables are as predicted.
 pub(crate) fn note(
     contents: &mut Contents,
     world: &PhysicsWorld,

@@ -47,8 +47,8 @@ fn given(group: &Group, parts: &[Part]) -> DVector<f64> {
     group.stack_of(parts.iter().map(|part| stack_spatial(&vector(part.applied.linvel), &vector(part.applied.angvel))))
 }
 
-/// Changes the velocities of a mechanism so that those of the members change by `changes` in `time` (s) of the loads on
-/// the others.
+/// Changes the velocities of a mechanism so that those of the members change by `changes` in `time`
+/// (s) of the loads on the others.
 fn change(world: &mut PhysicsWorld, group: &Group, parts: &[Part], changes: DVector<f64>, time: f64) {
     let impulses = group.impulses(&(changes - &group.acceleration * time));
     parts[0].mechanism.apply_loads(world, time);
@@ -64,7 +64,8 @@ pub(crate) fn apply(world: &mut PhysicsWorld, prediction: &Prediction, group: &G
     change(world, group, &parts, given(group, &parts) - velocities(group, &prediction.start), 0.5 * h);
 }
 
-/// Restores the forces and settings of a group's bodies, and completes their velocities; updates their reaction estimates.
+/// Restores the forces and settings of a group's bodies, and completes their velocities; updates
+/// their reaction estimates.
 pub(crate) fn read_back(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
@@ -113,8 +114,8 @@ pub(crate) fn read_back(
     }
 }
 
-/// Reads of a group how far Rapier's step of `h` (s) was the predicted one: the predicted change of velocity, and the deviation
-/// from it.
+/// Reads of a group how far Rapier's step of `h` (s) was the predicted one: the predicted change of
+/// velocity, and the deviation from it.
 fn watch(
     contents: &mut Contents,
     world: &PhysicsWorld,
@@ -154,8 +155,8 @@ fn watch(
     }
 }
 
-/// Returns by how much (rad) the attitude of a member of an island halfway of a step of `h` (s) is at most another than that at which its
-/// mechanism was predicted.
+/// Returns by how much (rad) the attitude of a member of an island halfway of a step of `h` (s) is
+/// at most another than that at which its mechanism was predicted.
 pub(crate) fn largest_turn_error(prediction: &Prediction, h: f64) -> f64 {
     let members = prediction.groups.iter().flat_map(|group| &group.members);
     let change = |&m: &usize| (prediction.end[m].angular_velocity - prediction.start[m].angular_velocity).norm();
@@ -189,7 +190,8 @@ fn update_reactions(
     }
 }
 
-/// Returns the part of a member's reaction estimate that moves it, if it is one of a group: force and torque.
+/// Returns the part of a member's reaction estimate that moves it, if it is one of a group: force
+/// and torque.
 pub(crate) fn unconstrained_reaction(
     contents: &Contents,
     island: &Island,

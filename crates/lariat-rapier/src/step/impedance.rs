@@ -6,11 +6,12 @@
 //! D = the block of a pin in (C + B)^-1
 //! B_i = 1/m - [r]x I^-1 [r]x,     of the body of the pin itself times MOBILITY_SHARE
 //! ```
-//! C is the compliance of the cable over the step ([`Impedance`]) at the pin and at the next ones on other bodies, B_i the mobility of
-//! the body of each, alone. A [`Ledger`] acts on the body with D about the predicted velocity of the
-//! anchor: if the prediction was right it does nothing; if a contact or a joint makes the body
-//! deviate, the body feels the cable within the same step. A sleeping body is predicted to rest under the force of its
-//! cables, which stands in the motors for as long as it sleeps: should Rapier wake it within a step, it feels them.
+//! C is the compliance of the cable over the step ([`Impedance`]) at the pin and at the next ones
+//! on other bodies, B_i the mobility of the body of each, alone. A [`Ledger`] acts on the body with
+//! D about the predicted velocity of the anchor: if the prediction was right it does nothing; if a
+//! contact or a joint makes the body deviate, the body feels the cable within the same step. A
+//! sleeping body is predicted to rest under the force of its cables, which stands in the motors for
+//! as long as it sleeps: should Rapier wake it within a step, it feels them.
 //!
 //! What the motors did acts on the cables as well, p by the motors of a body that deviated:
 //! ```text
@@ -18,8 +19,9 @@
 //! ```
 //!
 //! # Validity
-//! Rapier solves joints before contacts, so that the motors on a jammed body carry a small share of its load in every step. In fidelity game
-//! the tension next to it therefore differs by 0.1 % on a wire with twice the critical damping of its first mode, and by 1 % with 20 times (test
+//! Rapier solves joints before contacts, so that the motors on a jammed body carry a small share of
+//! its load in every step. In fidelity game the tension next to it therefore differs by 0.1 % on a
+//! wire with twice the critical damping of its first mode, and by 1 % with 20 times (test
 //! contact.rs); what is read at the body does not.
 //!
 //! # Alternatives considered
@@ -44,7 +46,8 @@ use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Linearises a cable at some nodes for a step: [`Impedance::update`] or [`Impedance::update_held`].
+/// Linearises a cable at some nodes for a step: [`Impedance::update`] or
+/// [`Impedance::update_held`].
 pub(super) type Update = fn(&mut Impedance, &mut Cable, &[usize], f64) -> Result<(), lariat_ancf::Error>;
 
 /// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
@@ -88,8 +91,9 @@ pub(crate) fn set_motors(
     Ok(())
 }
 
-/// Lets the motors on the sleeping bodies of an island exert what its cables do in a step of `h` (s) in which the bodies
-/// do not move: `load` (N and N m), and the impedance of the cables with all other pins held.
+/// Lets the motors on the sleeping bodies of an island exert what its cables do in a step of `h`
+/// (s) in which the bodies do not move: `load` (N and N m), and the impedance of the cables with
+/// all other pins held.
 pub(crate) fn hold(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
@@ -151,11 +155,13 @@ fn deviates(
             && proximity::overlaps(world, handle, &displacement)
 }
 
-/// Returns whether Rapier's step can bear motors on a member, and may need them. Its sweeps over impulse joints do not converge with motors
-/// on several bodies of a chain: two ropes on an arm of three welded links of 1 kg then blow up. In a mechanism that touches nothing they
-/// would only work against joints that have not converged, or, of a multibody that turns, against the arc of its anchor: a lever of 1 m
-/// with two loads opened gaps of 2 mm at 3 rad/s. The limits of a multibody, however, Rapier does not keep without error: the force on a
-/// chain of twelve links with limits at 0 ripples by 3 % without motors.
+/// Returns whether Rapier's step can bear motors on a member, and may need them. Its sweeps over
+/// impulse joints do not converge with motors on several bodies of a chain: two ropes on an arm of
+/// three welded links of 1 kg then blow up. In a mechanism that touches nothing they would only
+/// work against joints that have not converged, or, of a multibody that turns, against the arc of
+/// its anchor: a lever of 1 m with two loads opened gaps of 2 mm at 3 rad/s. The limits of a
+/// multibody, however, Rapier does not keep without error: the force on a chain of twelve links
+/// with limits at 0 ripples by 3 % without motors.
 fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     let alone = prediction.groups.iter().all(|group| group.members.len() == 1 || group.place(m).is_none());
     let bears = |mechanism: &Mechanism| {
@@ -165,7 +171,8 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
     prediction.mechanisms[m].as_ref().is_none_or(bears)
 }
 
-/// Linearises the cables of an island for a step of `h` (s) at the pins that `moves` names by their indices, with the others as `update` says.
+/// Linearises the cables of an island for a step of `h` (s) at the pins that `moves` names by their
+/// indices, with the others as `update` says.
 pub(super) fn linearise(
     contents: &mut Contents,
     island: &Island,
@@ -216,7 +223,8 @@ fn driving_point(island: &Island, prediction: &Prediction, pin: usize) -> Option
     Some(matrix.try_inverse()?.fixed_view::<3, 3>(0, 0).into_owned())
 }
 
-/// Returns the velocity of a point of a body per impulse on it, in 1/kg, as far as its axes are free.
+/// Returns the velocity of a point of a body per impulse on it, in 1/kg, as far as its axes are
+/// free.
 fn mobility(body: &RigidBody, anchor: &Vector3<f64>) -> Matrix3<f64> {
     let free = |from: usize| Matrix3::from_diagonal(&Vector3::from_fn(|x, _| f64::from(u8::from(body.free[from + x]))));
     let lever = (body.rotation * anchor).cross_matrix();
@@ -249,7 +257,8 @@ pub(super) fn motor_impulse(island: &Island, prediction: &Prediction, m: usize) 
     island.pins_on(m).map(of_pin).sum()
 }
 
-/// Replaces the impulses of the motors on a member by those that let its cables follow it where it is `exact`ly, after a step of `h` (s).
+/// Replaces the impulses of the motors on a member by those that let its cables follow it where it
+/// is `exact`ly, after a step of `h` (s).
 pub(super) fn follow_body(island: &Island, prediction: &mut Prediction, (m, exact): (usize, &ExactState), h: f64) {
     for pin in island.pins_on(m).filter(|pin| prediction.motors[*pin]) {
         let anchor = &island.pins[pin].anchor;

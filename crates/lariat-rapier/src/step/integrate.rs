@@ -95,7 +95,8 @@ impl Clone for Buffers {
     }
 }
 
-/// Returns the memory of a vector for items of another lifetime: the standard library collects in place what has the same layout.
+/// Returns the memory of a vector for items of another lifetime: the standard library collects in
+/// place what has the same layout.
 fn recycled<A, B>(mut vector: Vec<A>) -> Vec<B> {
     vector.clear();
     vector.into_iter().map(|_| unreachable!("an empty vector")).collect()

@@ -1,10 +1,10 @@
 //! Cable ends on fixed, kinematic and disabled bodies: prescribed motion.
 //!
-//! A ball attachment to a body that does not rotate prescribes the motion of its node over the step:
-//! the cubic through positions and velocities of its anchor at both ends of the step. A body that
-//! rotates, or that clamps a cable, is a driven body of the island, which moves the node along the
-//! arc and rotates the tangent. The pose of the body after the step is computed as Rapier does, so
-//! that the end is where Rapier puts the body.
+//! A ball attachment to a body that does not rotate prescribes the motion of its node over the
+//! step: the cubic through positions and velocities of its anchor at both ends of the step. A body
+//! that rotates, or that clamps a cable, is a driven body of the island, which moves the node along
+//! the arc and rotates the tangent. The pose of the body after the step is computed as Rapier does,
+//! so that the end is where Rapier puts the body.
 
 use crate::body::pose::OriginPose;
 use crate::body::prescribed_motion::PrescribedMotions;

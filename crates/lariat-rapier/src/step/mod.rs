@@ -142,8 +142,8 @@ pub(crate) fn begin(
     Ok(host)
 }
 
-/// Predicts the next Rapier step of a host step. An island that cannot step stays as it is, with its
-/// bodies, for the rest of the host step.
+/// Predicts the next Rapier step of a host step. An island that cannot step stays as it is, with
+/// its bodies, for the rest of the host step.
 pub(crate) fn predict_next(
     stepper: &mut Stepper,
     contents: &mut Contents,
@@ -197,7 +197,8 @@ pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut
     stepper.motions = host.motions;
 }
 
-/// Predicts the next Rapier step of all islands. Returns 1, or into how many parts it is to be divided and predicted anew.
+/// Predicts the next Rapier step of all islands. Returns 1, or into how many parts it is to be
+/// divided and predicted anew.
 fn predict_islands(
     stepper: &mut Stepper,
     contents: &mut Contents,
@@ -234,7 +235,8 @@ fn predict_islands(
         if !finder.neighbours.complete(contents, &islands.list, before) && parts == 1 {
             break step;
         }
-        // a mechanism turned otherwise, or cables met that were not expected to: they are united, and the step begins anew
+        // a mechanism turned otherwise, or cables met that were not expected to: they are united,
+        // and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
@@ -309,7 +311,8 @@ fn prepare_islands(
     Ok(step)
 }
 
-/// Begins the prediction of a Rapier step of one island: it is then ready to be integrated, or asleep.
+/// Begins the prediction of a Rapier step of one island: it is then ready to be integrated, or
+/// asleep.
 fn prepare_island(
     contents: &mut Contents,
     world: &mut PhysicsWorld,

@@ -7,12 +7,16 @@
 //!
 //! # Validity
 //! What Rapier's step makes of a body that something holds moves its cables by one implicit step
-//! ([`Impedance`](lariat_ancf::island::Impedance)). Error control resolves waves that this step does not, and each correction adds a little to
-//! them: on undamped cables they grow until the tension is lost. As long as a body rests against a contact or a limit of a multibody, cables under error control therefore have
-//! a Kelvin-Voigt time of 0.1 h or more, which adds 0.05 h w to the damping ratio of an axial wave of angular frequency w
-//! ([`Cable::set_least_damping`](lariat_ancf::coupling::Coupling::set_least_damping)). For one body that is enough at any mass; where bodies are so light that
-//! Rapier's steps do not resolve their vibration (h w > 0.6, [`substepping`]), the island is integrated by the discrete gradient in
-//! Rapier's steps, of 1/240 s or less, and an [event](crate::Event::Degraded) says so (test contact.rs).
+//! ([`Impedance`](lariat_ancf::island::Impedance)). Error control resolves waves that this step
+//! does not, and each correction adds a little to them: on undamped cables they grow until the
+//! tension is lost. As long as a body rests against a contact or a limit of a multibody, cables
+//! under error control therefore have a Kelvin-Voigt time of 0.1 h or more, which adds 0.05 h w to
+//! the damping ratio of an axial wave of angular frequency w
+//! ([`Cable::set_least_damping`](lariat_ancf::coupling::Coupling::set_least_damping)). For one body
+//! that is enough at any mass; where bodies are so light that Rapier's steps do not resolve their
+//! vibration (h w > 0.6, [`substepping`]), the island is integrated by the discrete gradient in
+//! Rapier's steps, of 1/240 s or less, and an [event](crate::Event::Degraded) says so (test
+//! contact.rs).
 //!
 //! # Alternatives considered
 //! What was tried, and what it gave: docs/decisions/rapier.md.
@@ -39,7 +43,8 @@ use lariat_ancf::island::{PinConstraint, RigidBody};
 use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
-/// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over a step.
+/// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over
+/// a step.
 pub(crate) fn prepare(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
@@ -86,7 +91,8 @@ pub(crate) fn prepare(
     Ok(())
 }
 
-/// Returns the largest h w, in steps of `h` (s), of the bodies of an island that rest against a contact, 0 for those at limits of a multibody.
+/// Returns the largest h w, in steps of `h` (s), of the bodies of an island that rest against a
+/// contact, 0 for those at limits of a multibody.
 fn held_phase(
     contents: &Contents,
     world: &PhysicsWorld,
@@ -154,7 +160,8 @@ fn read_members(
     Ok(())
 }
 
-/// Finds the mechanisms of the members, and adds inertia and loads of the bodies that these move with.
+/// Finds the mechanisms of the members, and adds inertia and loads of the bodies that these move
+/// with.
 fn find_mechanisms(
     contents: &Contents,
     world: &PhysicsWorld,

@@ -4,11 +4,12 @@
 //! ```text
 //! r += 0.3 (s (L (v_after - v0) - p + r h)/h + s' L (x_after - x1)/h^2 - r)
 //! ```
-//! v0 is the velocity that Rapier was given, x1 the predicted place, p the impulse of the motors, and L the inertia of the body with its
-//! mechanism. Of the impulse of contacts and joints in the step, the share s is expected again: what bears a load leaves the motion of the
-//! body as it is (s = 1), a blow is gone with the momentum that it gave (s = 0). So it is with places, s' <= s: what keeps a body where it is
-//! bears a load; Rapier also pushes a body out of what it has passed into, and continuous collision detection stops it at what it would pass,
-//! both without a force.
+//! v0 is the velocity that Rapier was given, x1 the predicted place, p the impulse of the motors,
+//! and L the inertia of the body with its mechanism. Of the impulse of contacts and joints in the
+//! step, the share s is expected again: what bears a load leaves the motion of the body as it is (s
+//! = 1), a blow is gone with the momentum that it gave (s = 0). So it is with places, s' <= s: what
+//! keeps a body where it is bears a load; Rapier also pushes a body out of what it has passed into,
+//! and continuous collision detection stops it at what it would pass, both without a force.
 //!
 //! # Validity
 //! In a Rapier step of h < T = 1/1920 s the factor 0.3 becomes `0.3 h/T`, and places count
@@ -17,8 +18,9 @@
 //! hinge at 1e-9 s (test host_steps.rs).
 //!
 //! # Alternatives considered
-//! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where continuous collision detection stops it.
-//! Leaving p out: bodies of 1 to 5 kg on a steel wire leave a jam when the host step is not split.
+//! The share s for places too: a ball with a thread rebounds with 0.09 to 0.14 of its speed where
+//! continuous collision detection stops it. Leaving p out: bodies of 1 to 5 kg on a steel wire
+//! leave a jam when the host step is not split.
 
 use crate::body::record::BodyRecord;
 use crate::body::spatial::stack_spatial;
@@ -63,8 +65,8 @@ pub(super) fn weight_of_places(h: f64) -> f64 {
     (h / SHORTEST_REACTION).min(1.0).powi(2)
 }
 
-/// Returns the share of an impulse that did not change the motion of what it acted on: `work` is its product with the velocities gained,
-/// `square` that with the velocities that it would give.
+/// Returns the share of an impulse that did not change the motion of what it acted on: `work` is
+/// its product with the velocities gained, `square` that with the velocities that it would give.
 pub(super) fn persisting_share(work: f64, square: f64) -> f64 {
     if square > 0.0 { (1.0 - work / square).clamp(0.0, 1.0) } else { 1.0 }
 }

@@ -5,15 +5,16 @@
 //! landed:    x, v = the predicted state, in f64
 //! deviated:  x = Rapier's, without its rounding      v = v1 + (v_after - v0)
 //! ```
-//! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state. The whole of the predicted change of velocity
-//! stays, so that bodies and cables keep their momentum. What contacts and joints did is expected again ([`reaction`](super::reaction));
-//! what the motors did acts on the cables ([`impedance`](super::impedance)).
+//! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state. The whole of the
+//! predicted change of velocity stays, so that bodies and cables keep their momentum. What contacts
+//! and joints did is expected again ([`reaction`](super::reaction)); what the motors did acts on
+//! the cables ([`impedance`](super::impedance)).
 //!
 //! # Validity
-//! With N substeps Rapier rounds each coordinate N times, by half a unit in the last place, and twice more between origin and centre of mass;
-//! the body is put back to its exact place, rounded once.
-//! Taken for motion, this rounding made a box of 4 kg at x = 8 m, which a rope of 3.75e6 N/m and T = 10 ms drags against 15.7 N of
-//! friction, pull by 46 N.
+//! With N substeps Rapier rounds each coordinate N times, by half a unit in the last place, and
+//! twice more between origin and centre of mass; the body is put back to its exact place, rounded
+//! once. Taken for motion, this rounding made a box of 4 kg at x = 8 m, which a rope of 3.75e6 N/m
+//! and T = 10 ms drags against 15.7 N of friction, pull by 46 N.
 //!
 //! # Alternatives considered
 //! Keeping only a share of the predicted change of velocity of a body that
@@ -153,8 +154,9 @@ fn put_to_rest(world: &mut PhysicsWorld, step: &BodyStep, applied: &AppliedMotio
 
 /// Restores the forces and settings of a body, and sets its state: the predicted one if it landed
 /// there, else Rapier's position with the velocity that contacts and joints left of the predicted
-/// one. `motors` is the impulse of its motors; a body that touched nothing, or that `rests`, is left where Rapier holds it, which
-/// would find its contacts anew, and wake all that it touches. Returns whether it landed.
+/// one. `motors` is the impulse of its motors; a body that touched nothing, or that `rests`, is
+/// left where Rapier holds it, which would find its contacts anew, and wake all that it touches.
+/// Returns whether it landed.
 fn read_back(
     world: &mut PhysicsWorld,
     step: &BodyStep,
@@ -191,8 +193,8 @@ fn read_back(
     landed
 }
 
-/// Returns whether a body is where it was predicted, and moves as it was told to, within rounding. Continuous collision detection stops a body
-/// at a wall without a change of its velocity.
+/// Returns whether a body is where it was predicted, and moves as it was told to, within rounding.
+/// Continuous collision detection stops a body at a wall without a change of its velocity.
 fn has_landed(body: &RapierBody, end: &RigidBody, applied: &AppliedMotion, deviation: &Vector6<f64>) -> bool {
     let epsilon = f64::from(Real::EPSILON);
     let centre = vector(body.center_of_mass());
@@ -205,9 +207,10 @@ fn has_landed(body: &RapierBody, end: &RigidBody, applied: &AppliedMotion, devia
         && angular.norm() <= tolerance * vector(applied.angvel).norm()
 }
 
-/// Returns the position of a body that deviated from the predicted one in a step of `iterations` substeps. By how much depends on when it was
-/// pushed: between nothing and `largest`, the deviation of its velocity times the step. Where Rapier's place is beyond that by no more than it is
-/// rounded, the nearer of the two is true.
+/// Returns the position of a body that deviated from the predicted one in a step of `iterations`
+/// substeps. By how much depends on when it was pushed: between nothing and `largest`, the
+/// deviation of its velocity times the step. Where Rapier's place is beyond that by no more than it
+/// is rounded, the nearer of the two is true.
 fn unrounded(body: &RapierBody, predicted: &Vector3<f64>, largest: &Vector3<f64>, iterations: usize) -> Vector3<f64> {
     let position = vector(body.center_of_mass());
     Vector3::from_fn(|i, _| {

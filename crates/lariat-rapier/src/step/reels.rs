@@ -1,5 +1,5 @@
-//! Reels: the arc lengths of attachments and junctions follow the nodes of a cable that a step moves; their nodes are found anew where
-//! elements are split or merged.
+//! Reels: the arc lengths of attachments and junctions follow the nodes of a cable that a step
+//! moves; their nodes are found anew where elements are split or merged.
 
 use crate::contents::Contents;
 use crate::error::Error;
@@ -7,7 +7,8 @@ use crate::handle::CableHandle;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable};
 
-/// Splits and merges elements at the eyes of all reels, before a step. Arc lengths stay, numbers of nodes change.
+/// Splits and merges elements at the eyes of all reels, before a step. Arc lengths stay, numbers of
+/// nodes change.
 pub(crate) fn remesh(contents: &mut Contents) -> Result<(), Error> {
     let Contents { cables, attachments, changed, .. } = contents;
     for cable in cables.values_mut().map(|slot| &mut slot.cable).filter(|cable| cable.has_reel()) {
@@ -25,7 +26,8 @@ pub(crate) fn remesh(contents: &mut Contents) -> Result<(), Error> {
     Ok(())
 }
 
-/// Notes which nodes of cables with reels are attached, before a step: a cable that moves no body splits and merges elements within it.
+/// Notes which nodes of cables with reels are attached, before a step: a cable that moves no body
+/// splits and merges elements within it.
 pub(crate) fn mark(contents: &mut Contents) {
     let Contents { cables, attachments, .. } = contents;
     for attachment in attachments.values_mut() {

@@ -1,10 +1,10 @@
 //! Islands that cannot step: their cables and bodies stand still while all others go on.
 //!
 //! # Scheme
-//! Cables and bodies of the island are as they were before its step, and so are their clocks. During
-//! Rapier's step its bodies are immovable obstacles: all axes are locked, velocities and forces are
-//! zero. Afterwards they have their own state again, whatever it was. The island is tried again in
-//! the next host step.
+//! Cables and bodies of the island are as they were before its step, and so are their clocks.
+//! During Rapier's step its bodies are immovable obstacles: all axes are locked, velocities and
+//! forces are zero. Afterwards they have their own state again, whatever it was. The island is
+//! tried again in the next host step.
 //!
 //! # Validity
 //! Rapier cannot lock a link of a multibody: it moves freely from rest during Rapier's step, and is

@@ -25,8 +25,8 @@ pub struct Settings {
     /// cost per step is bounded and which cannot make energy.
     #[serde(default = "fidelity")]
     pub fidelity: Fidelity,
-    /// Whether cables that are inserted from now on are [watched](lariat_ancf::Cable::set_watched): each warning
-    /// is an event. Default true; each cable is then read once per host step.
+    /// Whether cables that are inserted from now on are [watched](lariat_ancf::Cable::set_watched):
+    /// each warning is an event. Default true; each cable is then read once per host step.
     #[serde(default = "watch")]
     pub watch: bool,
     /// The largest amount of work in a host step. Default: no limit.

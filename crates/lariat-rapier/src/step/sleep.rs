@@ -11,13 +11,14 @@
 //! An island whose bodies all sleep is not stepped; only its clock advances. It wakes up when one
 //! of its bodies does, an end moves, a cable is modified, or gravity or an attachment changes.
 //!
-//! Rapier wakes bodies within its step, by rules of which not all can be foreseen from outside. What it
-//! would be given for the prediction that the island rests stands in it meanwhile, as motors
-//! ([`Ledger`](crate::body::ledger::Ledger)): a woken body feels its cables in that step as an awake one.
+//! Rapier wakes bodies within its step, by rules of which not all can be foreseen from outside.
+//! What it would be given for the prediction that the island rests stands in it meanwhile, as
+//! motors ([`Ledger`](crate::body::ledger::Ledger)): a woken body feels its cables in that step as
+//! an awake one.
 //!
 //! # Validity
-//! The cable must come to rest; without damping it never does. Of a body that is only touched by a cable, the
-//! force of that contact is missing in the step in which Rapier wakes it.
+//! The cable must come to rest; without damping it never does. Of a body that is only touched by a
+//! cable, the force of that contact is missing in the step in which Rapier wakes it.
 
 use crate::contents::Contents;
 use crate::events::Event;
@@ -122,8 +123,8 @@ fn is_steady(contents: &Contents, island: &Island) -> bool {
     })
 }
 
-/// Returns whether the cables of an island are slower than `speed` (m/s), their ends held still, and all loads at
-/// their full value.
+/// Returns whether the cables of an island are slower than `speed` (m/s), their ends held still,
+/// and all loads at their full value.
 fn is_quiet(contents: &Contents, island: &Island, speed: f64) -> bool {
     let mut cables = island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|slot| &slot.cable);
     cables.all(|cable| cable.speed() < speed && cable.is_loaded_steadily() && cable.is_held_still())

@@ -12,20 +12,23 @@
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:
 //! two jammed bodies of 1 kg under 1 kN oscillate by half of it, and a body that is released
 //! suddenly is thrown by the old estimate (a gap of F h^2/2m). Therefore the host step is split
-//! finer where a body that is near others, or has a reaction estimate, hangs on a cable that is taut or
-//! may become so. l is the length of the cable to its end, which gives an upper bound of its stiffness.
-//! A cable that sags gives way: the force F of a shallow catenary of length L and chord c varies as
-//! (L - c)^-1/2, its stiffness F/(2 (L - c)) as (L - c)^-3/2, which does not double while the chord grows
-//! by less than 1 - 2^(-2/3) = 0.37 of L - c. The growth is bounded by the present motion, a collision's
-//! change of velocity (2 v h), and a reaction estimate r that is wrong altogether (r h^2/2m). A cable
-//! that stays slack by that asks for no split: of a body that it pulls into a stop, r = F, h w <= 0.61.
+//! finer where a body that is near others, or has a reaction estimate, hangs on a cable that is
+//! taut or may become so. l is the length of the cable to its end, which gives an upper bound of
+//! its stiffness. A cable that sags gives way: the force F of a shallow catenary of length L and
+//! chord c varies as (L - c)^-1/2, its stiffness F/(2 (L - c)) as (L - c)^-3/2, which does not
+//! double while the chord grows by less than 1 - 2^(-2/3) = 0.37 of L - c. The growth is bounded by
+//! the present motion, a collision's change of velocity (2 v h), and a reaction estimate r that is
+//! wrong altogether (r h^2/2m). A cable that stays slack by that asks for no split: of a body that
+//! it pulls into a stop, r = F, h w <= 0.61.
 //!
-//! *Blows.* A cable follows a body that deviates by its linear response. A collision displaces an end by v h at most; by more than half an
-//! element it would fold that.
+//! *Blows.* A cable follows a body that deviates by its linear response. A collision displaces an
+//! end by v h at most; by more than half an element it would fold that.
 //!
-//! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with which that begins. If they change in it, by a line that snaps
-//! taut, bodies on joints have turned otherwise by the left side of the fourth line, by which share the directions in which they can move are wrong. Then the
-//! step is predicted anew, divided. Impulse joints turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
+//! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with
+//! which that begins. If they change in it, by a line that snaps taut, bodies on joints have turned
+//! otherwise by the left side of the fourth line, by which share the directions in which they can
+//! move are wrong. Then the step is predicted anew, divided. Impulse joints turn a velocity by
+//! removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
 //! side of the third line per radian.
 //!
 //! *Long host steps.* What is estimated of a body on joints from step to step, and the directions
@@ -34,8 +37,9 @@
 //! pieces: bodies on joints have four Rapier steps in each, and each may have as many as the
 //! settings allow.
 //!
-//! The collisions and the taut cables of the whole coming host step count ([`crate::body::proximity`]). All is evaluated again before each Rapier
-//! step, and the rest of the host step is split finer.
+//! The collisions and the taut cables of the whole coming host step count
+//! ([`crate::body::proximity`]). All is evaluated again before each Rapier step, and the rest of
+//! the host step is split finer.
 //!
 //! # Validity
 //! Measured with 1 kg, jams of 1 and 5 kN, host steps of 1/30 to 1/240 s: h w = 2.6 fails, 1.8
@@ -45,8 +49,9 @@
 //! at 11 m/s: a gap of 113 mm without a look at the collisions to come.
 //!
 //! # Alternatives considered
-//! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step. A bound of the gap that a collision at v opens before the
-//! cable follows, h v g/(1 + g) <= 1 mm with g = 0.1 h^2 k/m: with 32 steps at most, h w <= 0.6 asks for more of them below 50 m/s.
+//! A fine split always: a pile of 500 boxes costs 0.5 ms in each Rapier step. A bound of the gap
+//! that a collision at v opens before the cable follows, h v g/(1 + g) <= 1 mm with g = 0.1 h^2
+//! k/m: with 32 steps at most, h w <= 0.6 asks for more of them below 50 m/s.
 
 use crate::body::is_integrated;
 use crate::body::proximity;
@@ -81,7 +86,8 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
             let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
             taut_stiffness(contents, a.body, (dt, change))
         };
-        // most cables stay slack and hardly move whatever their body meets, and collisions take longer to find
+        // most cables stay slack and hardly move whatever their body meets, and collisions take
+        // longer to find
         let most = f64::from(world.bodies[a.body].linvel().length()) + fastest;
         let longest = max_deviation(contents, a);
         if stiffness(most) == 0.0 && most * dt <= longest {
@@ -100,8 +106,9 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
 
-/// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that none vibrates between
-/// them. A cable that touches a body is as stiff as one that is attached to it in the middle.
+/// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that
+/// none vibrates between them. A cable that touches a body is as stiff as one that is attached to
+/// it in the middle.
 fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     let mut stiffnesses: Vec<(RigidBodyHandle, f64)> = Vec::new();
     for slot in contents.cables.values() {
@@ -124,8 +131,8 @@ fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     near.map(count).fold(0.0, f64::max)
 }
 
-/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more than Rapier's linearised rotation can in a substep, or
-/// its impulse joints can turn a velocity.
+/// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more
+/// than Rapier's linearised rotation can in a substep, or its impulse joints can turn a velocity.
 fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
     let count = |a: &Attachment| {
@@ -137,8 +144,9 @@ fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     contents.attachments.values().map(count).fold(0.0, f64::max)
 }
 
-/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), if no other body is
-/// faster than `fastest` (m/s), or 0 if it has a reaction estimate. `None` if it does not deviate.
+/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), if no
+/// other body is faster than `fastest` (m/s), or 0 if it has a reaction estimate. `None` if it does
+/// not deviate.
 fn deviation_speed(
     contents: &Contents,
     world: &PhysicsWorld,
@@ -161,8 +169,8 @@ fn max_deviation(contents: &Contents, a: &Attachment) -> f64 {
     DEVIATION_SHARE * next.iter().map(|element| element.length).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns an upper bound in N/m of the stiffness of the cables of a body that may be taut within `dt` (s), if the body moves by `change` (m) beside
-/// its present motion.
+/// Returns an upper bound in N/m of the stiffness of the cables of a body that may be taut within
+/// `dt` (s), if the body moves by `change` (m) beside its present motion.
 fn taut_stiffness(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64, f64)) -> f64 {
     let on_body = contents.attachments.values().filter(|a| a.body == body);
     let taut =
@@ -170,8 +178,8 @@ fn taut_stiffness(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64
     taut.map(|part| part.stiffness).sum()
 }
 
-/// Returns h w in steps of `h` (s) of the body of an attachment that something holds, if that rests: it has less kinetic energy than a strain of its
-/// cables by the force there.
+/// Returns h w in steps of `h` (s) of the body of an attachment that something holds, if that
+/// rests: it has less kinetic energy than a strain of its cables by the force there.
 pub(super) fn resting_phase(contents: &Contents, world: &PhysicsWorld, a: &Attachment, h: f64) -> Option<f64> {
     let body = world.bodies.get(a.body).filter(|_| is_integrated(world, a.body) && is_held(contents, a))?;
     let stiffness = taut_stiffness(contents, a.body, (h, 0.0));

@@ -5,12 +5,13 @@
 //! given to Rapier, while a body sleeps:   F + D (0 - v)      D = C^-1
 //! cable:     dv = -A^-1 J^T (p - F h)      dx = h dv
 //! ```
-//! F is the force of the cable at rest, C its compliance over the step with all other pins held, p the impulse that the
-//! motors of the [ledger](crate::body::ledger) exerted. The body is as Rapier leaves it.
+//! F is the force of the cable at rest, C its compliance over the step with all other pins held, p
+//! the impulse that the motors of the [ledger](crate::body::ledger) exerted. The body is as Rapier
+//! leaves it.
 //!
 //! # Validity
-//! The first step is that of an implicit Euler method, as that of every body that deviates. In it a body has no contacts
-//! with what it lay on: Rapier has forgotten them.
+//! The first step is that of an implicit Euler method, as that of every body that deviates. In it a
+//! body has no contacts with what it lay on: Rapier has forgotten them.
 //!
 //! # Alternatives considered
 //! What was tried, and what it gave: docs/decisions/rapier.md.
@@ -26,8 +27,9 @@ use lariat_ancf::island::Impedance;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Takes over what Rapier's step of `h` (s) made of sleeping bodies that it woke: they felt the force of the cables at
-/// rest and the impedance; what the motors exerted beyond that force acts on the cables.
+/// Takes over what Rapier's step of `h` (s) made of sleeping bodies that it woke: they felt the
+/// force of the cables at rest and the impedance; what the motors exerted beyond that force acts on
+/// the cables.
 pub(super) fn wake_within_step(
     contents: &mut Contents,
     world: &mut PhysicsWorld,

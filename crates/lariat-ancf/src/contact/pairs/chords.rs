@@ -6,8 +6,9 @@
 //! min |a(s) - b(t)|^2 + e |a'|^2 (s - 1/2)^2        0 <= s, t <= 1
 //! ```
 //!
-//! The small second term makes the closest points of parallel chords unique, and lets them move steadily as the chords tilt. What is found on chords is
-//! completed on the curves, by the same problem on their tangents.
+//! The small second term makes the closest points of parallel chords unique, and lets them move
+//! steadily as the chords tilt. What is found on chords is completed on the curves, by the same
+//! problem on their tangents.
 //!
 //! # References
 //!
@@ -29,7 +30,8 @@ pub(crate) struct Strand<'a> {
     /// Change of the coordinates in the present iterate.
     pub change: &'a [f64],
     pub memory: &'a [PairMemory],
-    /// Length in m that came through the eye of a reel at the start: arc lengths of all material have grown by it.
+    /// Length in m that came through the eye of a reel at the start: arc lengths of all material
+    /// have grown by it.
     pub passed: f64,
 }
 
@@ -58,7 +60,8 @@ impl<'a> Piece<'a> {
         [combine(q, self.element, &shape), combine(change, self.element, &shape)]
     }
 
-    /// Returns the place at which the chord before one begins, and its change over the step; `None` at the beginning of the cable.
+    /// Returns the place at which the chord before one begins, and its change over the step; `None`
+    /// at the beginning of the cable.
     pub fn before(&self, chord: usize) -> Option<[Vector3<f64>; 2]> {
         if chord > 0 {
             return Some(self.place((chord - 1) as f64 / self.chords as f64));
@@ -99,8 +102,8 @@ pub(super) fn closest([a0, a1]: [Vector3<f64>; 2], [b0, b1]: [Vector3<f64>; 2]) 
     (s, t_of(s))
 }
 
-/// Returns the closest points of two curves as local coordinates, from those of chords; the first stays within its chord, the second within its
-/// element.
+/// Returns the closest points of two curves as local coordinates, from those of chords; the first
+/// stays within its chord, the second within its element.
 pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2], share: f64) -> [f64; 2] {
     let [mut x, mut y] = from;
     let n = a.chords as f64;
@@ -119,7 +122,8 @@ pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2],
         if determinant <= 0.0 || vv <= 0.0 {
             break;
         }
-        // beyond the end of the second cable there is nothing: the first one's best point is that for its end
+        // beyond the end of the second cable there is nothing: the first one's best point is that
+        // for its end
         let free = y - ((uu + weight) * gy + uv * gx) / determinant;
         let bounded = free.clamp(first, last);
         let next = (x - (gx - uv * (bounded - y)) / (uu + weight)).clamp(low, high);
@@ -134,7 +138,8 @@ pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2],
 mod tests {
     use super::*;
 
-    /// No points of the segments are nearer to each other than those that are found, but for the weight of the middle.
+    /// No points of the segments are nearer to each other than those that are found, but for the
+    /// weight of the middle.
     ///
     /// *Source.* All pairs of a grid.
     #[test]

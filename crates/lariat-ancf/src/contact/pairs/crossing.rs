@@ -2,7 +2,8 @@
 //!
 //! # Equation
 //!
-//! Chords that move evenly from the beginning to the end of a step can meet only when their four ends are in a plane:
+//! Chords that move evenly from the beginning to the end of a step can meet only when their four
+//! ends are in a plane:
 //!
 //! ```text
 //! f(t) = (a1 - a0) x (b1 - b0) . (b0 - a0) = 0        a cubic of the share t of the step
@@ -12,8 +13,8 @@
 //!
 //! # Validity
 //!
-//! Exact for the chords, whose distance from the curves is of the order of a hundredth of their length. Chords that stay in one plane have f = 0 at all
-//! times, and are not found.
+//! Exact for the chords, whose distance from the curves is of the order of a hundredth of their
+//! length. Chords that stay in one plane have f = 0 at all times, and are not found.
 //!
 //! # References
 //!
@@ -99,9 +100,11 @@ fn meets(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> bool {
 mod tests {
     use super::*;
 
-    /// Segments that move at random cross where a fine sampling of their motion finds that the line through one changes the side of the other within both.
+    /// Segments that move at random cross where a fine sampling of their motion finds that the line
+    /// through one changes the side of the other within both.
     ///
-    /// *Source.* The volume of the tetrahedron of the ends at 4000 times, whose sign changes while the segments overlap seen along its normal.
+    /// *Source.* The volume of the tetrahedron of the ends at 4000 times, whose sign changes while
+    /// the segments overlap seen along its normal.
     #[test]
     fn crossings_are_those_of_a_fine_sampling() {
         let mut x = 0.137;

@@ -2,9 +2,11 @@
 //!
 //! # Equation
 //!
-//! As for an obstacle, with the rate of the slip for the velocity beside it: that is what the force of the contact works on. An impulse R on it acts as the
-//! force does, on both places and on both slopes, so momentum is kept exactly. Normals and slips are those of the matrix, since the normal of a pair turns
-//! with it: G is so much more than the masses that an impulse along another would throw the cables aside.
+//! As for an obstacle, with the rate of the slip for the velocity beside it: that is what the force
+//! of the contact works on. An impulse R on it acts as the force does, on both places and on both
+//! slopes, so momentum is kept exactly. Normals and slips are those of the matrix, since the normal
+//! of a pair turns with it: G is so much more than the masses that an impulse along another would
+//! throw the cables aside.
 //!
 //! # Validity
 //!
@@ -14,8 +16,9 @@ use super::step::PairStep;
 use nalgebra::Vector3;
 
 impl PairStep {
-    /// Finds the velocities beside contacts that push, at the end of the step, and returns the energy in J of those that they oppose. `mass` is that of an
-    /// element of a strand per length, `velocity` that of a nodal vector's combination in one.
+    /// Finds the velocities beside contacts that push, at the end of the step, and returns the
+    /// energy in J of those that they oppose. `mass` is that of an element of a strand per length,
+    /// `velocity` that of a nodal vector's combination in one.
     pub fn find_impacts(
         &mut self,
         mass: impl Fn(usize, usize) -> f64,
@@ -45,8 +48,8 @@ impl PairStep {
         }
     }
 
-    /// Sets the impulses to those of the velocities that are left; `taken` are the changes of velocities by the linear solve. Returns
-    /// whether another solve sees more of them.
+    /// Sets the impulses to those of the velocities that are left; `taken` are the changes of
+    /// velocities by the linear solve. Returns whether another solve sees more of them.
     pub fn settle_impacts(&mut self, taken: impl Fn(usize, usize, &[f64; 4]) -> Vector3<f64>) -> bool {
         let mut changed = false;
         for pair in self.points.iter_mut().filter(|pair| pair.point.impact.acts()) {

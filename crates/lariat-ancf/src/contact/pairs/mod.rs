@@ -2,34 +2,44 @@
 //!
 //! # Equation
 //!
-//! A contact joins a material point of one centre line to one of another, with `y = xa - xb` and the tangents ta, tb. Between them is
-//! the plane through the closest points, with the normal n = y/|y|; the laws are those of an obstacle ([`contact`](super)), with the reach `ra + rb`
-//! and both stiffnesses in series. The frame of the plane turns with the pair, by the mean rotation of ta, tb and y:
+//! A contact joins a material point of one centre line to one of another, with `y = xa - xb` and
+//! the tangents ta, tb. Between them is the plane through the closest points, with the normal n =
+//! y/|y|; the laws are those of an obstacle ([`contact`](super)), with the reach `ra + rb` and both
+//! stiffnesses in series. The frame of the plane turns with the pair, by the mean rotation of ta,
+//! tb and y:
 //!
 //! ```text
 //! K w = ta x D ta + tb x D tb + e y x D y        K = sum (|v|^2 - v v^T), v = ta, tb, sqrt(e) y, means over the step
 //! s = D y - w x y                                slip: zero in any rigid motion of the pair
 //! ```
 //!
-//! The force f on the slip acts on the coordinates by virtual work, `f . s`: on both places, and on both slopes as the couple by which friction,
-//! which acts on the surfaces, turns the cables. So momentum and the torque of both cables balance exactly, as does the energy.
+//! The force f on the slip acts on the coordinates by virtual work, `f . s`: on both places, and on
+//! both slopes as the couple by which friction, which acts on the surfaces, turns the cables. So
+//! momentum and the torque of both cables balance exactly, as does the energy.
 //!
 //! # Validity
 //!
-//! Strands that slide through tight bends sink into each other: the plane of a contact is that of the predicted end, and what its turn in the step
-//! hides is an offset, which friction alone pays back. Without friction and damping it grows: by 0.8 r in 8 s of a slide, once. An overhand knot in a rope of
-//! radius 5 mm is up to 0.8 r deep while it is drawn tight, and 0.1 to 0.6 r when it holds; no strand passes. The depth that is read,
-//! [`PairTouch::depth`], has the offset in it. The law of contact that is taken by default, EA/(40 r^2), is soft for a rope that crosses another one at a
-//! point: a rope of 0.1 MPa under half a newton sinks by 1.8 r. [`Contact::stiffness`](super::Contact::stiffness) sets another.
+//! Strands that slide through tight bends sink into each other: the plane of a contact is that of
+//! the predicted end, and what its turn in the step hides is an offset, which friction alone pays
+//! back. Without friction and damping it grows: by 0.8 r in 8 s of a slide, once. An overhand knot
+//! in a rope of radius 5 mm is up to 0.8 r deep while it is drawn tight, and 0.1 to 0.6 r when it
+//! holds; no strand passes. The depth that is read, [`PairTouch::depth`], has the offset in it. The
+//! law of contact that is taken by default, EA/(40 r^2), is soft for a rope that crosses another
+//! one at a point: a rope of 0.1 MPa under half a newton sinks by 1.8 r.
+//! [`Contact::stiffness`](super::Contact::stiffness) sets another.
 //!
-//! The element has no torsion: cables that are parallel, to `sqrt(e)` = 0.03 rad, roll on each other without friction. Points of one cable nearer
-//! than eight radii along it do not touch, nor do points so near to a body that holds both. Cables that bend to less than some radii are not resolved.
-//! Whether centre lines went through each other is asked after every step (crossing.rs): such a step is divided, and if that does not help it is counted in
-//! [`Diagnostics::crossed_steps`](crate::Diagnostics::crossed_steps), which is a [warning](crate::Warning::PassedThrough).
+//! The element has no torsion: cables that are parallel, to `sqrt(e)` = 0.03 rad, roll on each
+//! other without friction. Points of one cable nearer than eight radii along it do not touch, nor
+//! do points so near to a body that holds both. Cables that bend to less than some radii are not
+//! resolved. Whether centre lines went through each other is asked after every step (crossing.rs):
+//! such a step is divided, and if that does not help it is counted in
+//! [`Diagnostics::crossed_steps`](crate::Diagnostics::crossed_steps), which is a
+//! [warning](crate::Warning::PassedThrough).
 //!
 //! # References
 //!
-//! As [`contact`](super); Wriggers & Zavarise, Comm. Numer. Meth. Eng. 13 (1997) 429 (beams that touch).
+//! As [`contact`](super); Wriggers & Zavarise, Comm. Numer. Meth. Eng. 13 (1997) 429 (beams that
+//! touch).
 //!
 //! # Alternatives considered
 //!

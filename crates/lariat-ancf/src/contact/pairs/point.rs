@@ -80,7 +80,8 @@ impl PairPoint {
         self.point.linearise(&self.frame, |_, _| moved);
     }
 
-    /// Evaluates it at the result of the linear solve, and returns how far that was off in N, and the work of its force in J.
+    /// Evaluates it at the result of the linear solve, and returns how far that was off in N, and
+    /// the work of its force in J.
     pub fn follow(&mut self, strands: [&Strand<'_>; 2]) -> [f64; 2] {
         let moved = self.turn(strands);
         let missed = self.point.follow(&self.frame, |_, _| moved);
@@ -97,8 +98,8 @@ impl PairPoint {
         self.spread_forces(&self.linear_spread, force)
     }
 
-    /// Returns the rate of the slip for velocities that are combined by strand, element and shape functions: what
-    /// [`linear_forces`](Self::linear_forces) are the transpose of.
+    /// Returns the rate of the slip for velocities that are combined by strand, element and shape
+    /// functions: what [`linear_forces`](Self::linear_forces) are the transpose of.
     pub fn rate(&self, velocity: impl Fn(usize, usize, &[f64; 4]) -> Vector3<f64>) -> Vector3<f64> {
         let at = |k: usize, shape: &[f64; 4]| velocity(self.ends[k].strand, self.ends[k].element, shape);
         let [place, first, second] = &self.linear_spread;

@@ -2,12 +2,15 @@
 //!
 //! # Validity
 //!
-//! Elements that come near each other at any time of the step are found by boxes (boxes.rs), their chords by halves (halves.rs), so that a fast one is not missed. Where chords pass more than half their reach in the step, the closest points
-//! are those when they first touch, by conservative advancement; else those at the predicted end.
+//! Elements that come near each other at any time of the step are found by boxes (boxes.rs), their
+//! chords by halves (halves.rs), so that a fast one is not missed. Where chords pass more than half
+//! their reach in the step, the closest points are those when they first touch, by conservative
+//! advancement; else those at the predicted end.
 //!
 //! # References
 //!
-//! Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative advancement).
+//! Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative
+//! advancement).
 
 use super::boxes::{Boxed, Boxes};
 use super::chords::{Piece, closest, refine};
@@ -174,7 +177,8 @@ fn pair<'a>(strands: &Strands<'_, 'a>, own: &[Boxed; 2]) -> Near<'a> {
     }
 }
 
-/// Returns the share of a step at which chords that move by at most `way` come within `reach`; 1 if they do not.
+/// Returns the share of a step at which chords that move by at most `way` come within `reach`; 1 if
+/// they do not.
 fn touch(distance: impl Fn(f64) -> f64, reach: f64, way: f64) -> f64 {
     let mut share = 0.0;
     for _ in 0..ADVANCES {

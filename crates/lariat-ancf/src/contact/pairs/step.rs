@@ -54,7 +54,8 @@ impl PairStep {
         self.points.len() as u64
     }
 
-    /// Returns the number of tests of whether pieces of cables are near each other, since that was last asked.
+    /// Returns the number of tests of whether pieces of cables are near each other, since that was
+    /// last asked.
     pub fn take_tests(&mut self) -> u64 {
         core::mem::take(&mut self.search.tests)
     }
@@ -217,7 +218,8 @@ impl PairStep {
         }
     }
 
-    /// Passes h times the forces to `add`, by strand and element: those at the iterate, or those about which the next solve is linear.
+    /// Passes h times the forces to `add`, by strand and element: those at the iterate, or those
+    /// about which the next solve is linear.
     pub fn pass_impulses(&self, linear: bool, mut add: impl FnMut(usize, usize, &[f64; 12])) {
         for pair in &self.points {
             let force = if linear { pair.point.linear.force } else { pair.point.now.force };
@@ -245,7 +247,8 @@ impl PairStep {
         sum
     }
 
-    /// Remembers the contacts of a strand that touch at the end of the step; `passed` is the length in m that came through the eye at the start of one.
+    /// Remembers the contacts of a strand that touch at the end of the step; `passed` is the length
+    /// in m that came through the eye at the start of one.
     pub fn remember(&self, strand: usize, passed: impl Fn(usize) -> f64, memory: &mut Vec<PairMemory>) {
         memory.clear();
         let touching =

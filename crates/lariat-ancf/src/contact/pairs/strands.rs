@@ -7,14 +7,16 @@ use super::chords::Strand;
 pub(crate) struct Strands<'s, 'a> {
     pub count: usize,
     pub get: &'s dyn Fn(usize) -> Strand<'a>,
-    /// Returns the distance in m between points of two cables, by arc length, over a body that holds both.
+    /// Returns the distance in m between points of two cables, by arc length, over a body that
+    /// holds both.
     pub over_bodies: &'s dyn Fn([usize; 2], [f64; 2]) -> f64,
     /// Those that may touch each other, in ascending order; `None` for all.
     pub pairs: Option<&'s [CablePair]>,
 }
 
 impl Strands<'_, '_> {
-    /// Returns the coefficient of friction between two strands that may touch, or of one with itself.
+    /// Returns the coefficient of friction between two strands that may touch, or of one with
+    /// itself.
     pub fn friction(&self, a: usize, b: usize) -> Option<f64> {
         let contact = |c: usize| (self.get)(c).model.effects.contact;
         let (one, other) = (contact(a)?, contact(b)?);

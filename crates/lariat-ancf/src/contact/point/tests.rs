@@ -11,8 +11,9 @@ fn point(patch: Patch, friction: f64) -> ContactPoint {
     ContactPoint { xi, shape, weight, law, friction, reach, patch, ..ContactPoint::default() }
 }
 
-/// Without friction the tangent is minus the derivative of the force, but for the turn of the mean normal, on a plane; and no contact
-/// with an obstacle, moving or turning or at rest, loses less than nothing: `F . D x = work - D (W + U) - loss` with a loss above zero.
+/// Without friction the tangent is minus the derivative of the force, but for the turn of the mean
+/// normal, on a plane; and no contact with an obstacle, moving or turning or at rest, loses less
+/// than nothing: `F . D x = work - D (W + U) - loss` with a loss above zero.
 ///
 /// *Source.* Central differences, and the energies by their formulas.
 #[test]
@@ -59,7 +60,8 @@ fn a_contact_makes_no_energy_but_the_work_of_its_obstacle() {
     }
 }
 
-/// What closes of an offset is paid by the contact itself, `F . D x = -D (W + U) - loss`, or by what moved the obstacle, with its work.
+/// What closes of an offset is paid by the contact itself, `F . D x = -D (W + U) - loss`, or by
+/// what moved the obstacle, with its work.
 ///
 /// *Source.* The energies by their formulas.
 #[test]

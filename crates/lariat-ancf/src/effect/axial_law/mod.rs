@@ -2,10 +2,10 @@
 //!
 //! # Equation
 //!
-//! Without this effect the axial energy of an element is quadratic in its Gram numbers, `N = EA eps f`
-//! with the Green strain eps = (f^2 - 1)/2. A law replaces the part of that energy that is linear in
-//! the element, at its two Gauss points, by the energy W of a force T per EA against the strain
-//! `e = f - 1`:
+//! Without this effect the axial energy of an element is quadratic in its Gram numbers, `N = EA eps
+//! f` with the Green strain eps = (f^2 - 1)/2. A law replaces the part of that energy that is
+//! linear in the element, at its two Gauss points, by the energy W of a force T per EA against the
+//! strain `e = f - 1`:
 //!
 //! ```text
 //! U = EA l sum_q 1/2 [W(x_q) - (x_q - 1)^2/8] + U_Green        x_q = b_q.g = f^2, projected on linear functions
@@ -13,21 +13,21 @@
 //! hooke   T = e          rope   T = max(0, e)          curve   a monotone quadratic spline through a table
 //! ```
 //!
-//! What of the Green energy is left is the share of higher strains that the rule stiffens. Two points
-//! integrate linear strain exactly, so the part that is replaced is the whole of what the rules
-//! `projected` and `exact` have of it; `mean` has one strain, at one point. Over a step of the
-//! discrete gradient the pairs are the exact secant `(W(x1) - W(x0))/(x1 - x0)`, hinge by hinge, and
-//! the energy law closes with every law.
+//! What of the Green energy is left is the share of higher strains that the rule stiffens. Two
+//! points integrate linear strain exactly, so the part that is replaced is the whole of what the
+//! rules `projected` and `exact` have of it; `mean` has one strain, at one point. Over a step of
+//! the discrete gradient the pairs are the exact secant `(W(x1) - W(x0))/(x1 - x0)`, hinge by
+//! hinge, and the energy law closes with every law.
 //!
 //! The curve is the spline of `spline.rs`.
 //!
 //! # Validity
 //!
-//! Damping is another effect, and acts in a slack element, too: with it a rope pushes by the rate of
-//! its strain. Stretch above 1/4; below, f is continued linearly in f^2, so that energy and force stay finite.
-//! EA of the section is the steepest slope of a curve or more: steps, tolerances and numerical
-//! dissipation go by it. With `rope` and `curve` a slack element has no axial stiffness but that
-//! share (1e-3 EA of strains that are not linear in the element).
+//! Damping is another effect, and acts in a slack element, too: with it a rope pushes by the rate
+//! of its strain. Stretch above 1/4; below, f is continued linearly in f^2, so that energy and
+//! force stay finite. EA of the section is the steepest slope of a curve or more: steps, tolerances
+//! and numerical dissipation go by it. With `rope` and `curve` a slack element has no axial
+//! stiffness but that share (1e-3 EA of strains that are not linear in the element).
 //!
 //! # References
 //!
@@ -35,8 +35,8 @@
 //!
 //! # Alternatives considered
 //!
-//! - Hooke as the default: engineering strain differs from Green's law by 3/2 of the strain (0.15 % of
-//!   the tension at 0.1 %), costs more per element, and changes every result that is compared
+//! - Hooke as the default: engineering strain differs from Green's law by 3/2 of the strain (0.15 %
+//!   of the tension at 0.1 %), costs more per element, and changes every result that is compared
 //!   with the paper. It is asked for by name.
 //! - The law at the points of the rule: with raw strain a bent element locks.
 
@@ -61,11 +61,11 @@ use spline::{Secant, Spline, stretch};
 pub enum AxialLaw {
     /// EA times the strain, in tension and in compression.
     Hooke,
-    /// EA times the strain in tension, nothing in compression: a rope that cannot push, but by axial
-    /// damping, if it has any.
+    /// EA times the strain in tension, nothing in compression: a rope that cannot push, but by
+    /// axial damping, if it has any.
     Rope,
-    /// A measured curve: rows of strain and force in N, both ascending, from the strain at which the
-    /// force begins with 0 N. It cannot push.
+    /// A measured curve: rows of strain and force in N, both ascending, from the strain at which
+    /// the force begins with 0 N. It cannot push.
     Curve(Vec<[f64; 2]>),
 }
 
@@ -158,8 +158,8 @@ pub(crate) struct LawTable {
 }
 
 impl LawTable {
-    /// Visits the points with their weight over EA l/4 and the secant of the energy beyond that of the
-    /// Green law, `(x - 1)^2/8`, over a step between Gram numbers.
+    /// Visits the points with their weight over EA l/4 and the secant of the energy beyond that of
+    /// the Green law, `(x - 1)^2/8`, over a step between Gram numbers.
     #[inline(always)]
     fn visit<T: Real>(&self, [g0, g1]: [&Six<T>; 2], mut each: impl FnMut(&Six<f64>, f64, Secant<T>)) {
         let weight = 4.0 / self.points.len() as f64;

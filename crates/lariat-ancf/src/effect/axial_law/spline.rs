@@ -95,8 +95,8 @@ impl Spline {
         0.5 * self.slope * e * e + self.hinges.iter().map(of).sum::<f64>()
     }
 
-    /// Returns the secant of the energy over a step of the squared stretch from `x0` to `x1`; where both
-    /// are the same, its derivative, whose own is twice that of the secant.
+    /// Returns the secant of the energy over a step of the squared stretch from `x0` to `x1`; where
+    /// both are the same, its derivative, whose own is twice that of the secant.
     #[inline(always)]
     pub fn secant<T: Real>(&self, x0: T, x1: T) -> Secant<T> {
         let ([f0, s0, r0], [f1, s1, r1]) = (stretch(x0), stretch(x1));
@@ -110,7 +110,8 @@ impl Spline {
         let mut slope = mean.splat(0.5 * self.slope);
         for hinge in &self.hinges {
             let (p0, p1) = ((e0 - hinge.at).at_least(0.0), (e1 - hinge.at).at_least(0.0));
-            // the share of the step on which the hinge is open; exactly 1 where it is open at both ends
+            // the share of the step on which the hinge is open; exactly 1 where it is open at both
+            // ends
             let closed = ((e1 - hinge.at) - p1) - ((e0 - hinge.at) - p0);
             let open = dx.splat(1.0) - ratio(closed, de);
             let (sum, square) = (p0 + p1, p1 * p1 + p1 * p0 + p0 * p0);
@@ -155,8 +156,8 @@ fn hinges(rows: &[[f64; 2]], unit: f64) -> Vec<Hinge> {
     hinges
 }
 
-/// Returns the stretch of its square, the root of the square or of its least, and by how much the square
-/// is below that.
+/// Returns the stretch of its square, the root of the square or of its least, and by how much the
+/// square is below that.
 #[inline(always)]
 pub(super) fn stretch<T: Real>(x: T) -> [T; 3] {
     let square = x.at_least(CRUMPLED);
@@ -186,7 +187,8 @@ mod tests {
         vec![Spline::hooke(), Spline::rope(), Spline::curve(&rows, unit)]
     }
 
-    /// The curve goes through its rows, does not fall, and is C1; beyond the last row it is straight.
+    /// The curve goes through its rows, does not fall, and is C1; beyond the last row it is
+    /// straight.
     #[test]
     fn a_curve_is_monotone_and_goes_through_its_rows() {
         let rows = [[0.0, 0.0], [0.02, 1.0], [0.05, 8.0], [0.2, 20.0], [0.3, 21.0]];
@@ -204,7 +206,8 @@ mod tests {
         assert!((spline.force(0.5) - 23.0).abs() < 1e-9);
     }
 
-    /// The secant times the step is the change of the energy, whatever the step; its slope is the derivative by differences.
+    /// The secant times the step is the change of the energy, whatever the step; its slope is the
+    /// derivative by differences.
     #[test]
     fn the_secant_is_exact_and_its_slope_that_of_differences() {
         let xs = [0.001, 0.05, 0.0625, 0.3, 0.9, 0.999, 1.0, 1.001, 1.04, 1.05, 1.1, 1.4, 1.9];

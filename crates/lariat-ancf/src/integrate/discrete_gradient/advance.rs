@@ -26,8 +26,8 @@ use crate::scales::integrate::{
     SINGLE_PRECISION_ROUNDING, TARGET_ERROR_SHARE,
 };
 
-/// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a failure the state is the last accepted
-/// one.
+/// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a
+/// failure the state is the last accepted one.
 pub(crate) fn advance<S: DiscreteGradientSystem>(
     system: &mut S,
     integrator: IntegratorRef<'_>,

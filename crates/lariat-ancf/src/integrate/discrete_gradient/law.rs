@@ -12,7 +12,8 @@ pub(crate) trait DiscreteGradientSystem {
     /// Sets the present time to `time` (s), from which it differs by rounding.
     fn set_time(&mut self, time: f64);
 
-    /// Begins a host step: puts prescribed coordinates in place if supports or the state were changed.
+    /// Begins a host step: puts prescribed coordinates in place if supports or the state were
+    /// changed.
     fn begin(&mut self);
 
     /// Begins a step: sets the first iterate.
@@ -75,8 +76,8 @@ pub(crate) fn sum_of_forces(x: &[f64]) -> f64 {
     x.as_chunks::<6>().0.iter().map(|x| (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()).sum()
 }
 
-/// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from `1/2 w.M w` and `v.M w`; `None` if
-/// there is none up to `largest_share`.
+/// Returns the smaller share u for which v - u w has less kinetic energy than v by the excess, from
+/// `1/2 w.M w` and `v.M w`; `None` if there is none up to `largest_share`.
 pub(crate) fn share_to_take(energy: f64, product: f64, excess: f64, largest_share: f64) -> Option<f64> {
     let root = product * product - 4.0 * energy * excess;
     let share = (product - root.max(0.0).sqrt()) / (2.0 * energy);

@@ -9,23 +9,28 @@
 //! M D v = h (G + F - f + R)        D q = h v^        v^ = v0 + b D v - a O v
 //! ```
 //!
-//! f is the discrete gradient of the strain energy U ([`element::step`](crate::element::step)): `f . D q = D U + loss`. G are dead loads, F all other forces, R the
-//! reactions of supports, which move by D q as prescribed. The product of the first equation with v^ is the *energy law*: with
+//! f is the discrete gradient of the strain energy U ([`element::step`](crate::element::step)): `f
+//! . D q = D U + loss`. G are dead loads, F all other forces, R the reactions of supports, which
+//! move by D q as prescribed. The product of the first equation with v^ is the *energy law*: with
 //!
 //! ```text
 //! H = 1/2 v.M v + U - G.q + S          S = a/2 (|D v|^2 + |D y|^2 + |D d|^2), of the last step
 //! D H = (F + R).D q - a/2 (|D v - O v|^2 + |D y - O y|^2 + |D d - O d|^2) - internal damping
 //! ```
 //!
-//! (|v|^2 = v.M v; y are strains, d slopes.) So H never rises but by the work of F and of supports, at any h, and neither does the mechanical energy E = H - S beyond it. It
-//! is the one-leg G-stable formula with the coefficients (b, 1/2 - 2a, a): `b L^2 + (1/2 - 2a) L + a = 0` has the double root L = -1/3 for
-//! a = 1/16, so that modes which a step does not resolve fall to a third in every step. Slow ones have the damping ratio a (h omega)^3/2.
+//! (|v|^2 = v.M v; y are strains, d slopes.) So H never rises but by the work of F and of supports,
+//! at any h, and neither does the mechanical energy E = H - S beyond it. It is the one-leg G-stable
+//! formula with the coefficients (b, 1/2 - 2a, a): `b L^2 + (1/2 - 2a) L + a = 0` has the double
+//! root L = -1/3 for a = 1/16, so that modes which a step does not resolve fall to a third in every
+//! step. Slow ones have the damping ratio a (h omega)^3/2.
 //!
 //! # Solution
 //!
-//! Newton's iteration begins at the constant acceleration of the step before. One iteration is taken, and *the step is accepted by its own energy law*: the residual r of the
-//! equation makes the energy `v^.r`, which must not be above what the step loses, to 1e-9 of its energy (safeguard.rs). Only if it is, the step is iterated further, then its
-//! velocities relative to rigid motion are scaled down, then it is divided by four.
+//! Newton's iteration begins at the constant acceleration of the step before. One iteration is
+//! taken, and *the step is accepted by its own energy law*: the residual r of the equation makes
+//! the energy `v^.r`, which must not be above what the step loses, to 1e-9 of its energy
+//! (safeguard.rs). Only if it is, the step is iterated further, then its velocities relative to
+//! rigid motion are scaled down, then it is divided by four.
 //!
 //! # Validity
 //!
@@ -35,8 +40,9 @@
 //!
 //! # References
 //!
-//! Dahlquist, BIT 18 (1978) 384 (G-stability); Gonzalez, J. Nonlinear Sci. 6 (1996) 449; Simo & Tarnow, ZAMP 43 (1992) 757; Armero & Romero, CMAME 190 (2001) 2603 and 6783
-//! (energy-decaying methods for nonlinear elastodynamics).
+//! Dahlquist, BIT 18 (1978) 384 (G-stability); Gonzalez, J. Nonlinear Sci. 6 (1996) 449; Simo &
+//! Tarnow, ZAMP 43 (1992) 757; Armero & Romero, CMAME 190 (2001) 2603 and 6783 (energy-decaying
+//! methods for nonlinear elastodynamics).
 //!
 //! # Alternatives considered
 //!
@@ -58,7 +64,8 @@ pub(crate) use law::{DiscreteGradientSystem, Event, share_to_take, sum_of_forces
 /// Name of the method with the dissipation of games.
 const NAME: &str = "discrete-gradient";
 
-/// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and [`Island`](crate::island::Island) can take it.
+/// The guarded discrete gradient as a method; only [`Cable`](crate::Cable) and
+/// [`Island`](crate::island::Island) can take it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiscreteGradient {
     /// Dissipation a, 0 to 1/16.

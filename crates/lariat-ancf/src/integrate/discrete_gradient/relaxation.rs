@@ -3,15 +3,18 @@
 //!
 //! # Equation
 //!
-//! What the tangent leaves out makes a slack cable that is hit swing between two iterates for ever. From the fourth iteration on, one that leaves more
-//! than half of the imbalance is followed by halves of the increments (under-relaxation). The share s of an increment d leaves of the residual
+//! What the tangent leaves out makes a slack cable that is hit swing between two iterates for ever.
+//! From the fourth iteration on, one that leaves more than half of the imbalance is followed by
+//! halves of the increments (under-relaxation). The share s of an increment d leaves of the
+//! residual
 //!
 //! ```text
 //! r(x + s d) = (1 - s) r(x) + what is not linear
 //! ```
 //!
-//! so a half that leaves half of the energy `r . D q/h`, to 0.1 of it, was on a tangent that is right, and a whole increment follows it. By halves alone such an iteration
-//! goes on halving what a whole one solves.
+//! so a half that leaves half of the energy `r . D q/h`, to 0.1 of it, was on a tangent that is
+//! right, and a whole increment follows it. By halves alone such an iteration goes on halving what
+//! a whole one solves.
 //!
 //! # Alternatives considered
 //!

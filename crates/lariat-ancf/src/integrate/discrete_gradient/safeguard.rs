@@ -1,14 +1,17 @@
 //! One step, by the cheapest means that keep its energy law.
 //!
-//! 1. One Newton iteration, accepted if its residual makes at most 1e-9 of the energy of the system beyond what the method loses and 1 % of
-//!    what damping takes, loses no more energy than the method does, and leaves at most 1 % of the impulses unbalanced.
-//! 2. Up to eight, up to four for the last condition: with the same factors where energy is not made and they bring the impulses nearer to
-//!    balance, else with a new tangent.
-//! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their energy; momenta stay.
-//! 4. Four steps of a quarter, each by the same means; the one after a quarter that had to be divided in turn is divided at once.
+//! 1. One Newton iteration, accepted if its residual makes at most 1e-9 of the energy of the system
+//!    beyond what the method loses and 1 % of what damping takes, loses no more energy than the
+//!    method does, and leaves at most 1 % of the impulses unbalanced.
+//! 2. Up to eight, up to four for the last condition: with the same factors where energy is not
+//!    made and they bring the impulses nearer to balance, else with a new tangent.
+//! 3. Velocities relative to rigid motion are scaled down, if that takes at most half of their
+//!    energy; momenta stay.
+//! 4. Four steps of a quarter, each by the same means; the one after a quarter that had to be
+//!    divided in turn is divided at once.
 //!
-//! With a [limit](WorkLimit) to the work that is spent, one iteration is taken, rescaling may take all of that energy, and instead of a
-//! division the step ends.
+//! With a [limit](WorkLimit) to the work that is spent, one iteration is taken, rescaling may take
+//! all of that energy, and instead of a division the step ends.
 //!
 //! Damping, friction and impact lose so much that any error of the iteration hides behind them: on
 //! a rotor whose rope is damped, errors of the tension grow to a thousand times the tension. A step

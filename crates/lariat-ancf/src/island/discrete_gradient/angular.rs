@@ -1,4 +1,5 @@
-//! The angular momentum of an island that nothing holds, over a step. Equations: `system/angular.rs`.
+//! The angular momentum of an island that nothing holds, over a step. Equations:
+//! `system/angular.rs`.
 
 use super::IslandStep;
 use super::body::BodyStep;
@@ -46,7 +47,8 @@ impl IslandStep<'_, '_> {
         }
     }
 
-    /// Restores the angular momentum after an accepted step, and returns its balance with what that does to the energy.
+    /// Restores the angular momentum after an accepted step, and returns its balance with what that
+    /// does to the energy.
     pub(super) fn restore_angular_momentum(&mut self, mut balance: Balance) -> Balance {
         let Some(before) = self.cables[0].step_buffers.before else { return balance };
         if self.cables.iter().any(|cable| cable.step_buffers.contact.is_held()) {

@@ -2,28 +2,32 @@
 //!
 //! # Equation
 //!
-//! With velocity v in world axes and angular velocity W in body axes, u = (v, W), the one-leg mean `u^ = u0 + b D u - a O u`, the
-//! attitude R and the Cayley map
+//! With velocity v in world axes and angular velocity W in body axes, u = (v, W), the one-leg mean
+//! `u^ = u0 + b D u - a O u`, the attitude R and the Cayley map
 //!
 //! ```text
 //! D x = h v^        R1 = R0 Cay(h W^)        Cay(y) = (1 - [y]x/2)^-1 (1 + [y]x/2)
 //! B D u + h (0, W^ x I W_m) = h (f, (1 - h [W^]x/2) R0^T tau),      W_m = (W0 + W1)/2
 //! ```
 //!
-//! The second row is the balance of angular momentum, `R1 I W1 - R0 I W0 = h tau`, multiplied by `(1 - h [W^]x/2) R0^T`: without a torque the
-//! angular momentum is constant to rounding. Its product with u^ is the energy law, because `W^ . (W^ x ..)` is zero: the work is
-//! `f . D x + h tau . w^` with `w^ = R0 W^ = R1 W^`, and a point a of the body moves by exactly `h (v^ + w^ x (R0 a + R1 a)/2)`.
+//! The second row is the balance of angular momentum, `R1 I W1 - R0 I W0 = h tau`, multiplied by
+//! `(1 - h [W^]x/2) R0^T`: without a torque the angular momentum is constant to rounding. Its
+//! product with u^ is the energy law, because `W^ . (W^ x ..)` is zero: the work is `f . D x + h
+//! tau . w^` with `w^ = R0 W^ = R1 W^`, and a point a of the body moves by exactly `h (v^ + w^ x
+//! (R0 a + R1 a)/2)`.
 //!
-//! B = diag(m, I) plus the carried inertia, which is constant with its rotations in body axes during a host step.
+//! B = diag(m, I) plus the carried inertia, which is constant with its rotations in body axes
+//! during a host step.
 //!
 //! # References
 //!
-//! Simo & Wong, IJNME 31 (1991) 19 (energy and momentum conserving rotation); Austin, Krishnaprasad & Wang, J. Comput. Phys. 107 (1993) 105
-//! (the Cayley map).
+//! Simo & Wong, IJNME 31 (1991) 19 (energy and momentum conserving rotation); Austin, Krishnaprasad
+//! & Wang, J. Comput. Phys. 107 (1993) 105 (the Cayley map).
 //!
 //! # Alternatives considered
 //!
-//! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps neither energy nor angular momentum.
+//! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps
+//! neither energy nor angular momentum.
 
 use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
@@ -202,7 +206,8 @@ impl BodyStep {
         [self.rotation * local, self.end * local]
     }
 
-    /// Completes a row of impulse and angular impulse of the pins in world axes: adds the loads, subtracts the inertia.
+    /// Completes a row of impulse and angular impulse of the pins in world axes: adds the loads,
+    /// subtracts the inertia.
     pub fn complete_row(&self, row: &mut [f64]) {
         let h = self.h;
         let [_, spin] = self.mean;
@@ -305,8 +310,8 @@ impl BodyStep {
         self.landed = stack([Vector3::new(taken[0], taken[1], taken[2]), turned]);
     }
 
-    /// Takes all free velocities beside a rigid motion from the end of the step; returns their kinetic energy in J, and their product with
-    /// all velocities.
+    /// Takes all free velocities beside a rigid motion from the end of the step; returns their
+    /// kinetic energy in J, and their product with all velocities.
     pub fn take_relative(&mut self, rigid: &RigidMotion) -> (f64, f64) {
         let end = self.final_velocity();
         let [v, spin] = split(&end);
@@ -319,7 +324,8 @@ impl BodyStep {
         (0.5 * self.taken.dot(&momentum), end.dot(&momentum))
     }
 
-    /// Returns its velocity in a rigid motion of the island at the end of the step: along an axis, or about one through `centre`.
+    /// Returns its velocity in a rigid motion of the island at the end of the step: along an axis,
+    /// or about one through `centre`.
     pub fn velocity_in(&self, mode: usize, centre: &Vector3<f64>) -> Vector6<f64> {
         if mode < 3 {
             return stack([Vector3::ith(mode, 1.0), Vector3::zeros()]);
@@ -381,7 +387,8 @@ impl BodyStep {
         momenta.add_second_difference_of_body(&self.position, [v * self.mass, self.rotation * (self.inertia * spin)]);
     }
 
-    /// Returns impulse and angular impulse about the origin of the loads over a step that has just ended.
+    /// Returns impulse and angular impulse about the origin of the loads over a step that has just
+    /// ended.
     pub fn outside_impulses(&self) -> [Vector3<f64>; 2] {
         let (impulse, middle) = (self.force * self.h, self.position - 0.5 * self.displacement());
         [impulse, middle.cross(&impulse) + self.torque * self.h]
@@ -393,7 +400,8 @@ impl BodyStep {
         self.set_velocity(&v, &spin);
     }
 
-    /// Returns whether nothing but cables acts on it beside its loads, and it keeps its angular momentum.
+    /// Returns whether nothing but cables acts on it beside its loads, and it keeps its angular
+    /// momentum.
     pub fn is_free(&self) -> bool {
         self.free == [true; 6] && self.gyroscopic && !self.carries()
     }

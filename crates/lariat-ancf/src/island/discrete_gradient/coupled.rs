@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! As that of [one body](super::body), it is constant over a host step with the velocities of positions in world axes and those of rotations
-//! in body axes. The energy law is then that of the quadratic form of all bodies.
+//! As that of [one body](super::body), it is constant over a host step with the velocities of
+//! positions in world axes and those of rotations in body axes. The energy law is then that of the
+//! quadratic form of all bodies.
 
 use super::body::BodyStep;
 use crate::island::CoupledInertia;
@@ -21,7 +22,8 @@ pub(super) fn complete_rows(bodies: &[BodyStep], coupled: &[CoupledInertia], row
     }
 }
 
-/// Returns the product of two vectors of the bodies over the coupled inertia: of one with itself, twice its energy.
+/// Returns the product of two vectors of the bodies over the coupled inertia: of one with itself,
+/// twice its energy.
 pub(super) fn coupled_product(
     coupled: &[CoupledInertia],
     one: impl Fn(usize) -> Vector6<f64>,
@@ -30,7 +32,8 @@ pub(super) fn coupled_product(
     coupled.iter().flat_map(|c| c.momenta(&two)).map(|(i, p)| one(i).dot(&p)).sum()
 }
 
-/// Adds the coupled inertia's part of what is dissipated by the method, and held when the step begins.
+/// Adds the coupled inertia's part of what is dissipated by the method, and held when the step
+/// begins.
 pub(super) fn add_coupled_energies(bodies: &[BodyStep], coupled: &[CoupledInertia], leg: OneLeg, total: &mut Balance) {
     for c in coupled {
         let seconds = c.bodies.map(|i| bodies[i].second_difference());

@@ -1,4 +1,5 @@
-//! Pinned positions and clamped slopes over a step of the [discrete gradient](crate::integrate::discrete_gradient).
+//! Pinned positions and clamped slopes over a step of the [discrete
+//! gradient](crate::integrate::discrete_gradient).
 //!
 //! # Equation
 //!
@@ -8,9 +9,10 @@
 //!          e = d_m - h/4 w^ x (d1 - d0)
 //! ```
 //!
-//! l is the stretch at a clamp. Both are exact, by the Cayley map of the [body](super::body), so a hold does to the body what it does to
-//! the cable: an impulse p of the held rows passes the impulse p and the angular impulse `rho_m x p`, or of a slope `t_m x p` alone. The
-//! closing of a gap and the rotation of a clamp into its direction do work, which counts as that of a support.
+//! l is the stretch at a clamp. Both are exact, by the Cayley map of the [body](super::body), so a
+//! hold does to the body what it does to the cable: an impulse p of the held rows passes the
+//! impulse p and the angular impulse `rho_m x p`, or of a slope `t_m x p` alone. The closing of a
+//! gap and the rotation of a clamp into its direction do work, which counts as that of a support.
 
 use super::body::BodyStep;
 use crate::island::hold::{Hold, vector};
@@ -101,7 +103,8 @@ impl HoldStep {
         }
     }
 
-    /// Returns the stiffening part of the lever under the impulse: rotations turn a pulled lever out of the pull.
+    /// Returns the stiffening part of the lever under the impulse: rotations turn a pulled lever
+    /// out of the pull.
     pub fn stiffening(&self) -> Matrix3<f64> {
         let (square, pull) = (self.arm.norm_squared(), self.impulse.dot(&self.arm));
         if self.slope || square == 0.0 || pull <= 0.0 {

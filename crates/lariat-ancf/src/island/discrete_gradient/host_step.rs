@@ -1,8 +1,9 @@
 //! One host step of an island by the discrete gradient.
 //!
-//! The velocity of a pinned node follows its own one-leg formula, so it deviates from that of its body, by the second order of the step.
-//! The deviation at the end of a host step is known from the memory of cable and body; only what differs from it in the next one, because
-//! an engine or a user changed the body's velocity, is shared by an impact.
+//! The velocity of a pinned node follows its own one-leg formula, so it deviates from that of its
+//! body, by the second order of the step. The deviation at the end of a host step is known from the
+//! memory of cable and body; only what differs from it in the next one, because an engine or a user
+//! changed the body's velocity, is shared by an impact.
 
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;

@@ -1,4 +1,5 @@
-//! [Impact](crate::contact) of the cables of an island on obstacles, on its bodies and on each other.
+//! [Impact](crate::contact) of the cables of an island on obstacles, on its bodies and on each
+//! other.
 
 use super::super::hold::vector;
 use super::IslandStep;
@@ -11,7 +12,8 @@ use crate::term::{Account, Balance};
 use nalgebra::Vector3;
 
 impl IslandStep<'_, '_> {
-    /// Takes the velocity across contacts that push at the end of the step, if it has more energy than `least` (J).
+    /// Takes the velocity across contacts that push at the end of the step, if it has more energy
+    /// than `least` (J).
     pub(super) fn land_contacts(&mut self, balance: &mut Balance, least: f64) {
         let mut energy = 0.0;
         let bodies = &self.buffers.bodies;

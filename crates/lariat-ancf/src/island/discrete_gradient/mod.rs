@@ -1,9 +1,11 @@
-//! An island under the [discrete gradient](crate::integrate::discrete_gradient): cables and bodies in one step, under one energy law.
+//! An island under the [discrete gradient](crate::integrate::discrete_gradient): cables and bodies
+//! in one step, under one energy law.
 //!
 //! # Equation
 //!
-//! The unknowns of Newton's iteration are the changes of velocities D v of the cables and D u of the [bodies](self::body); held
-//! coordinates [follow](self::holds). Each cable is condensed on them as for the other integrators, and the matrix of the bodies is
+//! The unknowns of Newton's iteration are the changes of velocities D v of the cables and D u of
+//! the [bodies](self::body); held coordinates [follow](self::holds). Each cable is condensed on
+//! them as for the other integrators, and the matrix of the bodies is
 //!
 //! ```text
 //! B + sum G^T W G + b h/2 (p.rho)+ (1 - rho rho^T/rho^2)          G = (1, -[arm]x)
@@ -117,7 +119,8 @@ impl StepBuffers {
 }
 
 impl IslandStep<'_, '_> {
-    /// Sets held coordinates of the iterate and obstacles to where their bodies are, and the free directions of clamped slopes.
+    /// Sets held coordinates of the iterate and obstacles to where their bodies are, and the free
+    /// directions of clamped slopes.
     fn follow(&mut self) {
         self.follow_drums();
         let StepBuffers { bodies, cables: own, paths, .. } = &mut *self.buffers;

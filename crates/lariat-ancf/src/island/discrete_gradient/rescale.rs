@@ -6,14 +6,16 @@
 //! w = v - (V + W x (x - c))          a velocity beside a rigid motion; a slope's: t' - W x t
 //! ```
 //!
-//! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid motions in the norm of the kinetic
-//! energy, so its momentum and its angular momentum stay; with reels, or with bodies that carry
-//! others, which joints may hold, the translation of its centre of mass. Of one whose driven
-//! bodies and supports all move as one rigid body, it is their motion. Of any other there is none, and all velocities that nothing
-//! prescribes are scaled. Scaling those of cables and bodies together keeps pinned points on their bodies.
+//! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid
+//! motions in the norm of the kinetic energy, so its momentum and its angular momentum stay; with
+//! reels, or with bodies that carry others, which joints may hold, the translation of its centre of
+//! mass. Of one whose driven bodies and supports all move as one rigid body, it is their motion. Of
+//! any other there is none, and all velocities that nothing prescribes are scaled. Scaling those of
+//! cables and bodies together keeps pinned points on their bodies.
 //!
 //! # Alternatives considered
-//! The translation alone: of two balls on a stiff cable of which one was kicked, a step took 0.19 of the angular momentum.
+//! The translation alone: of two balls on a stiff cable of which one was kicked, a step took 0.19
+//! of the angular momentum.
 
 use super::IslandStep;
 use super::body::BodyStep;
@@ -27,7 +29,8 @@ use crate::system::{CableStep, Modes, dot, relative_velocities, solve_semidefini
 use crate::term::Balance;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-/// See [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
+/// See
+/// [`DiscreteGradientSystem::rescale`](crate::integrate::discrete_gradient::DiscreteGradientSystem::rescale).
 pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut Balance, largest_share: f64) -> bool {
     if island.cables.len() == 1 && island.buffers.bodies.is_empty() {
         return rescale_alone(island.cables[0], balance, largest_share);
@@ -130,7 +133,8 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
     })
 }
 
-/// Returns the rigid motion with the momenta of an island that nothing holds, at the end of the step.
+/// Returns the rigid motion with the momenta of an island that nothing holds, at the end of the
+/// step.
 fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
     let (mut matrix, mut momenta) = (Matrix6::zeros(), Vector6::zeros());
     let centre = island.buffers.bodies.first().map_or_else(Vector3::zeros, |body| body.position + body.displacement());

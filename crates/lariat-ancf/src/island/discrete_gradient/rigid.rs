@@ -17,7 +17,8 @@ impl RigidMotion {
         self.velocity + self.spin.cross(&(point - self.centre))
     }
 
-    /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in any case.
+    /// Returns whether it is that of another, but for rounding: what holds a node is prescribed in
+    /// any case.
     pub fn agrees_with(&self, other: &RigidMotion) -> bool {
         let same = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm() <= VELOCITY_ROUNDING * a.norm().max(b.norm());
         same(self.spin, other.spin) && same(self.at(&self.centre), other.at(&self.centre))

@@ -15,7 +15,8 @@ use crate::system::{CableStep, Equations, project_vector};
 use crate::term::StepTerm;
 
 impl IslandStep<'_, '_> {
-    /// Computes residuals and step matrices of all cables, factors and condenses these, and sums the rows of the bodies.
+    /// Computes residuals and step matrices of all cables, factors and condenses these, and sums
+    /// the rows of the bodies.
     pub(super) fn linearise(&mut self) -> Result<(), StepFailure> {
         self.buffers.rows.fill(0.0);
         Reels::evaluate(self);
@@ -92,7 +93,8 @@ impl IslandStep<'_, '_> {
         rows.truncate(6 * bodies.len());
     }
 
-    /// Solves for the increments and adds a share of them to the iterate: all where rates of reels are unknown.
+    /// Solves for the increments and adds a share of them to the iterate: all where rates of reels
+    /// are unknown.
     pub(super) fn add_increment(&mut self, share: f64) -> Result<(), StepFailure> {
         self.solve();
         self.add_to_laws();

@@ -12,8 +12,9 @@ use crate::system::Winch;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// A body that turns as the end of a cable runs: the rate of the [reel on it](crate::Reel::on_drum) is its spin about the axis times the radius,
-/// relative to the body that holds the eye or to the world, and the torque of the pull acts on both.
+/// A body that turns as the end of a cable runs: the rate of the [reel on it](crate::Reel::on_drum)
+/// is its spin about the axis times the radius, relative to the body that holds the eye or to the
+/// world, and the torque of the pull acts on both.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drum {
     /// Index in the island of the cable, and its end: the start if true.

@@ -1,7 +1,8 @@
 //! Checks of sheaves: one cable runs into another at a point that both are held at.
 //!
-//! Cable ends at a sheave have a [reel over a sheave](crate::Reel::over_sheave), and are held at one point: by pins to one body, or by
-//! supports. Equation, validity and alternatives: `system/reel/wheel.rs`.
+//! Cable ends at a sheave have a [reel over a sheave](crate::Reel::over_sheave), and are held at
+//! one point: by pins to one body, or by supports. Equation, validity and alternatives:
+//! `system/reel/wheel.rs`.
 
 use crate::cable::Cable;
 use crate::error::{Error, require};

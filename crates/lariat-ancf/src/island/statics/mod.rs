@@ -7,19 +7,20 @@
 //! ```
 //!
 //! is solved again and again with growing c2, from rest each time: a proximal step of the potential
-//! energy in the metric of mass, for c2 = 0 along its gradient, for large c2 Newton's step. A step that
-//! raises the energy is repeated with a smaller c2. Velocities, gyroscopic torques and gaps are zero,
-//! and the rotation vectors of the bodies are counted from their attitude before each step. The end is
-//! checked: forces and moments balance at every node and at every body, no element is folded, and the
-//! matrix is positive definite; a saddle is left by a small displacement.
+//! energy in the metric of mass, for c2 = 0 along its gradient, for large c2 Newton's step. A step
+//! that raises the energy is repeated with a smaller c2. Velocities, gyroscopic torques and gaps
+//! are zero, and the rotation vectors of the bodies are counted from their attitude before each
+//! step. The end is checked: forces and moments balance at every node and at every body, no element
+//! is folded, and the matrix is positive definite; a saddle is left by a small displacement.
 //!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
 //! symmetric: the error falls linearly.
 //!
 //! # Validity
 //!
-//! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still, without friction; contact of the bodies, and
-//! of cables with them, must be known to the caller. Modes without stiffness, such as a turn about a rope, keep their place.
+//! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still,
+//! without friction; contact of the bodies, and of cables with them, must be known to the caller.
+//! Modes without stiffness, such as a turn about a rope, keep their place.
 //!
 //! # References
 //!
@@ -44,13 +45,13 @@ use crate::statics::{Continued, EquilibriumOptions, EquilibriumReport, find};
 use nalgebra::Vector3;
 use search::Search;
 
-/// Moves cables and bodies, held together by `pins`, to static equilibrium under gravity, the full point
-/// loads and effects of the cables, and the forces and torques of the bodies; velocities become zero. Flow
-/// is that of the cables' time.
+/// Moves cables and bodies, held together by `pins`, to static equilibrium under gravity, the full
+/// point loads and effects of the cables, and the forces and torques of the bodies; velocities
+/// become zero. Flow is that of the cables' time.
 ///
 /// # Errors
-/// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins that
-/// do not fit. Cables and bodies are then as before.
+/// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins
+/// that do not fit. Cables and bodies are then as before.
 pub fn equilibrium(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],

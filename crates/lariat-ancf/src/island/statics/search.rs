@@ -266,8 +266,8 @@ impl Search {
         }
     }
 
-    /// Returns the largest residual in N, of nodes and of bodies; moments are divided by the lever of the
-    /// body or by the length of an element.
+    /// Returns the largest residual in N, of nodes and of bodies; moments are divided by the lever
+    /// of the body or by the length of an element.
     fn balance(&mut self, cables: &mut [&mut Cable]) -> f64 {
         let Search { layout, matrices, q, z, v, rhs, time, length, .. } = self;
         let mut equations = IslandEquations { cables, layout, matrices };
@@ -339,8 +339,8 @@ fn total_force(body: &RigidBody) -> Vector3<f64> {
     body.force + body.at_points.map_or(Vector3::zeros(), |points| points.force)
 }
 
-/// Returns the potential energy in J at coordinates `q`, less the work of torques over the rotations from
-/// the attitudes that these are counted from.
+/// Returns the potential energy in J at coordinates `q`, less the work of torques over the
+/// rotations from the attitudes that these are counted from.
 fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64]) -> f64 {
     let mut sum = 0.0;
     for (cable, part) in cables.iter_mut().zip(&layout.parts) {

@@ -1,4 +1,5 @@
-//! What cables run over, and what they are wound on: sheaves at an end and along a cable, and drums.
+//! What cables run over, and what they are wound on: sheaves at an end and along a cable, and
+//! drums.
 
 pub(crate) mod drums;
 pub(crate) mod passing;
