@@ -31,6 +31,8 @@ pub(in crate::contact) struct Evaluation {
     /// Outward normal.
     pub normal: Vector3<f64>,
     pub depth: f64,
+    /// Depth in m that counts when the step begins.
+    pub start: f64,
     /// Spring of friction in the obstacle's axes half way.
     pub spring: Vector3<f64>,
     pub slides: Option<Vector3<f64>>,

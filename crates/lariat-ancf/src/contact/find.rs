@@ -16,6 +16,7 @@ use super::path::ObstacleStep;
 use super::point::ContactPoint;
 use super::step::{ContactStep, find, find_from};
 use super::tube::Tube;
+use crate::element::shape::combine;
 use crate::obstacle::Patch;
 use crate::obstacle::trace;
 use crate::obstacle::{Feature, Nearest};
@@ -86,6 +87,9 @@ impl ContactStep {
         self.hand_over(motion.memory);
         self.close_offsets(PAID * motion.lost * motion.h);
         self.before = self.points.iter().map(ContactPoint::energy_before).sum();
+        for point in &mut self.points {
+            point.find_rebound_of(&self.obstacles, motion);
+        }
         self.follow_closest(motion);
     }
 
@@ -215,6 +219,7 @@ impl ContactStep {
                     self.watched.swap_remove(i);
                     point.patch = patch;
                     point.recall(&y0, &self.obstacles[point.obstacle], None);
+                    point.find_rebound_of(&self.obstacles, motion);
                     self.points.push(point);
                 }
             }
@@ -226,6 +231,15 @@ impl ContactPoint {
     /// Returns whether it is one of an element or of its neighbours, with an obstacle.
     pub(super) fn touches(&self, obstacle: usize, element: usize) -> bool {
         self.obstacle == obstacle && (self.key.0 as usize).abs_diff(element) <= 1
+    }
+
+    /// Finds what restitution gives back in the step.
+    pub(super) fn find_rebound_of(&mut self, obstacles: &[ObstacleStep], motion: &Motion<'_>) {
+        let (element, shape, start) = (self.key.0 as usize, self.shape, self.start);
+        let obstacle = &obstacles[self.obstacle];
+        self.find_rebound(obstacle, motion.leg.b, || {
+            obstacle.slip(&start, &(combine(motion.v, element, &shape) * obstacle.h))
+        });
     }
 
     /// Returns whether it touches a patch at `y`. A sample that comes from beside a face is behind

@@ -15,15 +15,16 @@
 //! ```
 //!
 //! v1 is relative to the obstacle, `u = e max(0, -n . v0)` what Newton's coefficient of restitution
-//! e leaves of the velocity v0 with which a contact came, until it comes again. Until it leaves, an
-//! impact also gives what lacks of u, with the velocity at the beginning of the step if that is
-//! less; then it only takes what is more, so that what lies stays. What G is too soft to give is
-//! added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is the
-//! tangent of friction, S the step matrix without contacts; the sum is the matrix that the last
-//! iteration factored. So an impulse spreads through cable and bodies as those of the step did.
-//! Where a contact slips, the friction of the impulse that is taken back goes with it, with l of a
-//! first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of
-//! contacts that a step does not resolve is taken, and that of others left.
+//! e leaves of the velocity v0 with which a contact came, until it comes again. Where a step does
+//! not resolve the touch ([`rebound`](super::rebound)) an impact also gives what lacks of u until
+//! it leaves, with the velocity at the beginning of the step if that is less; then it only takes
+//! what is more, so that what lies stays. What G is too soft to give, or with restitution to take
+//! but for 1 cm/s, is added to R and solved for again (augmented Lagrangian), until it changes by
+//! 1e-3. T is the tangent of friction, S the step matrix without contacts; the sum is the matrix
+//! that the last iteration factored. So an impulse spreads through cable and bodies as those of the
+//! step did. Where a contact slips, the friction of the impulse that is taken back goes with it,
+//! with l of a first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the
+//! velocity of contacts that a step does not resolve is taken at once.
 //!
 //! The energy of motion and of the store change by
 //!
@@ -62,7 +63,7 @@ use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::element::assembly::add_force;
 use crate::one_leg::OneLeg;
-use crate::scales::contact::{GIVEN, MAX_SOLVES};
+use crate::scales::contact::{GIVEN, SLOW};
 use nalgebra::Vector3;
 
 /// An end of a step.
@@ -70,11 +71,6 @@ use nalgebra::Vector3;
 pub(crate) enum When {
     Begin,
     End,
-}
-
-/// Returns how often impulses are solved for again at most, where some give velocity or none.
-pub(crate) fn solves_again(gives: bool) -> usize {
-    if gives { MAX_SOLVES } else { 1 }
 }
 
 impl ContactPoint {
@@ -106,7 +102,7 @@ impl ContactPoint {
             self.came = if self.touched { self.came } else { came };
             // one that presses on gives no more than what it comes with in this step
             let least = self.restitution * came.min(self.came);
-            gives = across < least;
+            gives = across < least && !self.is_resolved(h, self.came.abs());
             rebound = if gives { least } else { self.restitution * self.came.abs() };
             self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
         }
@@ -123,14 +119,16 @@ impl ContactPoint {
         0.5 * mass * weight * over * over
     }
 
-    /// Sets its impulse to that of the velocity that is left if `taken` is taken (m/s); returns
-    /// whether another solve sees more of it: the friction of what is taken back, or that a contact
-    /// does not pull.
-    pub fn settle_impact(&mut self, taken: &Vector3<f64>, h: f64) -> bool {
+    /// Sets its impulse to that of the velocity that is left if `taken` is taken (m/s), by the
+    /// `first` solve or another one; returns whether one more sees more of it: what G is too soft
+    /// for, the friction of what is taken back, or that a contact does not pull.
+    pub fn settle_impact(&mut self, taken: &Vector3<f64>, h: f64, first: bool) -> bool {
         let (now, impact) = (&self.now, &mut self.impact);
         let left = impact.beside - taken;
-        let (wanted, most) = (impact.gain * (impact.normal.dot(&left) - impact.rebound), h * now.normal_force);
-        if impact.gives {
+        let over = impact.normal.dot(&left) - impact.rebound;
+        let (wanted, most) = (impact.gain * over, h * now.normal_force);
+        let takes_more = self.restitution > 0.0 && over > SLOW && impact.given + wanted < most;
+        if impact.gives || takes_more {
             let given = impact.given;
             impact.given = (given + wanted).min(most);
             let mut row = impact.normal * (impact.given - impact.gain * impact.rebound);
@@ -139,6 +137,9 @@ impl ContactPoint {
             }
             impact.row = row + impact.gained(&impact.beside);
             return (impact.given - given).abs() > GIVEN * impact.given.abs();
+        }
+        if !first {
+            return false;
         }
         let normal = wanted.clamp(0.0, most);
         let mut impulse = impact.normal * normal + impact.friction * left;
@@ -210,13 +211,14 @@ impl ContactStep {
         &mut self,
         taken: impl Fn(usize, &[f64; 4]) -> Vector3<f64>,
         of_body: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>,
+        first: bool,
     ) -> bool {
         let mut changed = false;
         for point in self.points.iter_mut().filter(|point| point.impact.acts()) {
             let body = self.obstacles[point.obstacle].body;
             let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &point.now.arm));
             let taken = taken(point.key.0 as usize, &point.shape) - of_obstacle;
-            changed |= point.settle_impact(&taken, self.h);
+            changed |= point.settle_impact(&taken, self.h, first);
         }
         changed
     }

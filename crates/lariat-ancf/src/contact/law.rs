@@ -71,6 +71,16 @@ impl NormalLaw {
         }
     }
 
+    /// Returns the depth at which the energy per length is `energy` >= 0 (J/m).
+    pub(in crate::contact) fn depth_of_energy(&self, energy: f64) -> f64 {
+        let NormalLaw { stiffness: k, ramp: delta } = *self;
+        if energy < k * delta * delta / 6.0 {
+            (6.0 * delta * energy / k).cbrt()
+        } else {
+            0.5 * delta + (2.0 * energy / k - delta * delta / 12.0).sqrt()
+        }
+    }
+
     /// Returns the depth at which the force per length is `force` > 0 (N/m).
     pub(in crate::contact) fn depth_of(&self, force: f64) -> f64 {
         let NormalLaw { stiffness: k, ramp: delta } = *self;
@@ -152,6 +162,7 @@ mod tests {
             assert!(((high.energy - low.energy) / (2.0 * d) / at.force - 1.0).abs() < 1e-7);
             assert!(((high.force - low.force) / (2.0 * d) / at.slope - 1.0).abs() < 1e-7);
             assert!((law.depth_of(at.force) / depth - 1.0).abs() < 1e-14);
+            assert!((law.depth_of_energy(at.energy) / depth - 1.0).abs() < 1e-14);
         }
         assert_eq!(law.at(-1e-3), Pressure { force: 0.0, slope: 0.0, energy: 0.0 });
     }

@@ -54,6 +54,7 @@ impl ContactStep {
             if depth > deepest + RAMP * pair.radius {
                 point.patch = patch;
                 point.recall(&start, &pair.step, None);
+                point.find_rebound_of(&self.obstacles, motion);
                 point.nearby = Some(i);
                 self.points.push(point);
             }

@@ -9,6 +9,7 @@
 //!
 //! ```text
 //! normal     f_n = -W'(g1) gbar                        gbar . (y1 - y0) = g1 - g0 exactly          (patch.rs)
+//!            less where it opens faster than restitution leaves, with restitution                  (rebound.rs)
 //! friction   u' = P u0 + P (y1 - y0),  |k_t u'| <= mu N: u1 = u', else u1 = mu N/k_t u'/|u'|       (law.rs)
 //!            f_t = -k_t u1
 //! ```
@@ -84,6 +85,7 @@ mod pairs;
 mod patch;
 mod path;
 mod point;
+mod rebound;
 mod roll;
 mod slide;
 mod statics;
@@ -97,7 +99,7 @@ pub use crate::obstacle::{
 };
 pub use crate::state::{ContactMemory, PairMemory};
 pub(crate) use border::Border;
-pub(crate) use impact::{When, solves_again};
+pub(crate) use impact::When;
 pub(crate) use motion::Motion;
 pub(crate) use pair::between_samples;
 #[cfg(test)]

@@ -12,6 +12,8 @@ pub(crate) struct Motion<'a> {
     pub h: f64,
     pub leg: OneLeg,
     pub q: &'a [f64],
+    /// Velocities when the step begins.
+    pub v: &'a [f64],
     /// Change of the coordinates in the first iterate.
     pub change: &'a [f64],
     pub memory: &'a [ContactMemory],

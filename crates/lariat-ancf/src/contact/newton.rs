@@ -50,7 +50,8 @@ impl ContactPoint {
         let pressure = linear.pressure + linear.slope * (self.now.depth - linear.depth);
         let turned = linear.slides.zip(self.now.slides).is_some_and(|(a, b)| a.dot(&b) < 0.0);
         let pushes = linear.slope > 0.0 && pressure > 0.0;
-        self.about = About { depth: pushes.then(|| self.law.depth_of(pressure)), sticks: turned };
+        self.about =
+            About { depth: pushes.then(|| self.push(self.now.start, obstacle.h).depth_of(pressure)), sticks: turned };
         let row_slip = obstacle.slip(&linear.row.start, &changes(linear.element, &linear.row.shape));
         let believed = linear.force
             - linear.tangents.normal * (row_slip - linear.row_slip)

@@ -84,6 +84,7 @@ impl Pair<'_> {
         (point.xi, point.weight) = (xi, weight);
         point.shape = shape::position(xi, self.section.length);
         point.law = NormalLaw::of(self.contact, &self.section.section);
+        point.mass = self.section.section.mass_per_length;
         (point.friction, point.restitution) = (self.obstacle.friction, self.obstacle.restitution);
         point.reach = self.radius + self.obstacle.skin;
         point.start = combine(self.motion.q, self.element, &point.shape);

@@ -5,6 +5,7 @@ use super::impulse::Impact;
 use super::law::{NormalLaw, friction, spring_energy};
 use super::linear::{About, Linear, Roll, Tangents};
 use super::path::ObstacleStep;
+use super::rebound::{Push, Rebound, is_resolved};
 use crate::element::shape::combine;
 use crate::obstacle::Patch;
 use crate::scales::contact::{CLOSING_TIME, LIFTED};
@@ -23,6 +24,10 @@ pub(in crate::contact) struct ContactPoint {
     /// Length in m that it stands for.
     pub weight: f64,
     pub law: NormalLaw,
+    /// Mass in kg/m that moves with it, at least.
+    pub mass: f64,
+    /// What it may give back in the step.
+    pub rebound: Rebound,
     /// Coefficient of friction.
     pub friction: f64,
     /// Coefficient of restitution.
@@ -98,6 +103,30 @@ impl ContactPoint {
             self.came = memory.came;
             self.bound = self.friction * memory.force;
         }
+        self.rebound = Rebound::default();
+    }
+
+    /// Returns whether a step of length `h` (s) resolves a touch at a speed (m/s).
+    pub fn is_resolved(&self, h: f64, speed: f64) -> bool {
+        is_resolved(&self.law, h, self.mass, speed)
+    }
+
+    /// Returns whether restitution gives back what comes: of one that touches first, or came and
+    /// has not come again.
+    pub fn bounces(&self) -> bool {
+        self.restitution > 0.0 && (!self.touched || self.came != 0.0)
+    }
+
+    /// Finds what restitution gives back in the step, in a formula with the coefficient b; `moves`
+    /// is its motion beside the obstacle in the step with the velocities at the beginning.
+    pub fn find_rebound(&mut self, obstacle: &ObstacleStep, b: f64, moves: impl FnOnce() -> Vector3<f64>) {
+        if !self.bounces() {
+            return;
+        }
+        let normal = self.patch.over_step(obstacle, &self.start, &Vector3::zeros(), None).normal;
+        let opens = normal.dot(&moves()) / obstacle.h;
+        let came = if self.touched { self.came.abs() } else { (-opens).max(0.0) };
+        self.rebound = Rebound::new(self.restitution * came, opens, b, self.is_resolved(obstacle.h, came));
     }
 
     /// Returns the depth in m of the closest point where the gap of this one is `gap`.
@@ -122,6 +151,12 @@ impl ContactPoint {
     pub fn energy_before(&self) -> f64 {
         let depth = self.depth_before - self.offset;
         self.weight * self.law.at(depth).energy + spring_energy(self.law.stiffness * self.weight, &self.spring)
+    }
+
+    /// Returns its normal force as a function of the depth at the end of a step of length `h` (s),
+    /// from that at its start.
+    pub fn push(&self, start: f64, h: f64) -> Push<'_> {
+        Push { law: &self.law, rebound: self.rebound, start, h }
     }
 
     /// Returns the row of its normal force.
@@ -152,18 +187,21 @@ impl ContactPoint {
         let meets = self.between.is_none().then_some(self.reach);
         let gap = self.patch.over_step(obstacle, &self.start, change, meets);
         let depth = self.depth_at(gap.end) - (self.offset - self.closing);
+        let start = self.depth_at(gap.start) - self.offset;
         let stiffness = self.weight * self.law.stiffness;
         let u0 = obstacle.middle * self.spring;
-        let before = self.weight * self.law.at(self.depth_at(gap.start) - self.offset).energy;
-        if depth <= 0.0 && about.depth.is_none() {
-            let loss = before + spring_energy(stiffness, &u0);
+        let before = self.weight * self.law.at(start).energy;
+        let push = self.push(start, obstacle.h);
+        let end = push.at(depth);
+        let after = self.weight * end.energy;
+        if end.force <= 0.0 && about.depth.is_none() {
+            let loss = before - after + spring_energy(stiffness, &u0);
             let slip = obstacle.slip(&self.start, change);
-            return Evaluation { depth, normal: gap.normal, slip, loss, ..Evaluation::default() };
+            return Evaluation { depth, start, normal: gap.normal, slip, loss, energy: after, ..Evaluation::default() };
         }
-        let end = self.law.at(depth);
         let (mut pressure, mut slope) = (end.force, end.slope);
         if let Some(about) = about.depth {
-            let at = self.law.at(about);
+            let at = push.at(about);
             (pressure, slope) = (at.force + at.slope * (depth - about), at.slope);
         }
         let normal = self.between.map_or(gap.normal, |between| obstacle.end.rotation * between.normal);
@@ -173,7 +211,6 @@ impl ContactPoint {
             (tangents.normal, tangents.across) = (row * row.transpose() * (self.weight * slope), row);
         }
         let normal_force = self.weight * pressure;
-        let after = self.weight * end.energy;
         let slip = obstacle.slip(&self.start, change);
         let mut out = Evaluation {
             force: gap.mean * normal_force,
@@ -183,6 +220,7 @@ impl ContactPoint {
             normal_force,
             normal,
             depth,
+            start,
             energy: after,
             loss: before - after - normal_force * (gap.mean.dot(&slip) - self.closing),
             work: normal_force * self.closing,
@@ -213,6 +251,11 @@ impl ContactPoint {
             out.work += out.force.dot(&(change - slip));
         }
         out
+    }
+
+    /// Returns whether it is remembered: it pushes, or it opens too fast to push but is still deep.
+    pub fn is_kept(&self) -> bool {
+        self.now.normal_force > 0.0 || self.now.energy > 0.0
     }
 
     /// Returns what is remembered of it at the end of the step.

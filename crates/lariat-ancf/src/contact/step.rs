@@ -193,7 +193,7 @@ impl ContactStep {
     /// Remembers the contacts that touch at the end of the step.
     pub fn remember(&self, memory: &mut Vec<ContactMemory>) {
         memory.clear();
-        for point in self.points.iter().filter(|point| point.now.normal_force > 0.0) {
+        for point in self.points.iter().filter(|point| point.is_kept()) {
             memory.push(point.memory(&self.obstacles[point.obstacle]));
         }
         // of several points on a feature the one that carries most

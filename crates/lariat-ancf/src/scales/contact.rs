@@ -180,3 +180,14 @@ pub(crate) const FEW: usize = 8;
 /// one for several elements. Derived: points eight radii apart along such elements are six radii
 /// apart in space, and are near below four.
 pub(crate) const STRAIGHT: f64 = 0.95;
+
+/// Speed in m/s over which a contact with restitution fades that opens too fast, and the least that
+/// it may open with. Derived: a bounce of 5 um, below which a cable of mm is taken to lie.
+pub(crate) const SLOW: f64 = 0.01;
+
+/// Largest way, in depths of the touch, of a step that resolves it. Measured:
+/// docs/decisions/restitution.md; from 2.2 to 3 alike.
+pub(crate) const RESOLVED: f64 = 2.5;
+
+/// Largest number of steps of the search for the depth of a force. Unknown: it ends a loop.
+pub(crate) const DEPTHS: usize = 60;

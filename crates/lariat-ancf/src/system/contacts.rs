@@ -38,8 +38,11 @@ impl Equations<'_> {
         f: impl FnOnce(&mut ContactStep, &Motion<'_>) -> T,
     ) -> T {
         let StepVectors { contact, change, h, leg, .. } = b;
-        let (q, memory) = (&state.q[..], &state.memory.contacts[..]);
-        f(contact, &Motion { model: self.model, time: state.time, h: *h, leg: *leg, q, change, memory, lost, bodies })
+        let (q, v, memory) = (&state.q[..], &state.v[..], &state.memory.contacts[..]);
+        f(
+            contact,
+            &Motion { model: self.model, time: state.time, h: *h, leg: *leg, q, v, change, memory, lost, bodies },
+        )
     }
 
     /// Adds contact forces to the residual of the present iterate, and what they do to its balance.

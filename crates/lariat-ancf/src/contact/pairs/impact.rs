@@ -50,11 +50,11 @@ impl PairStep {
 
     /// Sets the impulses to those of the velocities that are left; `taken` are the changes of
     /// velocities by the linear solve. Returns whether another solve sees more of them.
-    pub fn settle_impacts(&mut self, taken: impl Fn(usize, usize, &[f64; 4]) -> Vector3<f64>) -> bool {
+    pub fn settle_impacts(&mut self, taken: impl Fn(usize, usize, &[f64; 4]) -> Vector3<f64>, first: bool) -> bool {
         let mut changed = false;
         for pair in self.points.iter_mut().filter(|pair| pair.point.impact.acts()) {
             let taken = pair.rate(&taken);
-            changed |= pair.point.settle_impact(&taken, self.h);
+            changed |= pair.point.settle_impact(&taken, self.h, first);
         }
         changed
     }

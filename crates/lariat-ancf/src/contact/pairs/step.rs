@@ -160,6 +160,7 @@ impl PairStep {
                 NormalLaw::of(&one, &sections[0].section),
                 NormalLaw::of(&other, &sections[1].section),
             ),
+            mass: reduced(sections.map(|section| section.section.mass_per_length)),
             friction,
             reach: candidate.reach,
             patch: Patch::Plane { point: Vector3::zeros(), normal },
@@ -251,14 +252,18 @@ impl PairStep {
     /// in m that came through the eye at the start of one.
     pub fn remember(&self, strand: usize, passed: impl Fn(usize) -> f64, memory: &mut Vec<PairMemory>) {
         memory.clear();
-        let touching =
-            self.points.iter().filter(|pair| pair.ends[0].strand == strand && pair.point.now.normal_force > 0.0);
+        let touching = self.points.iter().filter(|pair| pair.ends[0].strand == strand && pair.point.is_kept());
         memory.extend(touching.map(|pair| PairMemory {
             contact: in_world_axes(pair),
             arcs: pair.ends.map(|end| end.arc),
             passed: pair.ends.map(|end| passed(end.strand)),
         }));
     }
+}
+
+/// Returns the mass per length of the relative motion of two.
+fn reduced([one, other]: [f64; 2]) -> f64 {
+    one * other / (one + other)
 }
 
 /// Returns whether an iterate is far from another change of coordinates.

@@ -4,8 +4,8 @@
 use super::super::hold::vector;
 use super::IslandStep;
 use super::coupled::coupled_product;
-use crate::contact::solves_again;
 use crate::element::shape::combine;
+use crate::scales::contact::MAX_SOLVES;
 use crate::system::CableStep;
 use crate::system::StepVectors;
 use crate::term::{Account, Balance};
@@ -32,8 +32,8 @@ impl IslandStep<'_, '_> {
         }
         self.solve_impacts();
         let gives = self.cables.iter().any(|cable| cable.step_buffers.contact.gives_velocity());
-        for _ in 0..solves_again(gives) {
-            if !self.settle_impacts() {
+        for solve in 0..MAX_SOLVES {
+            if !self.settle_impacts(solve == 0) {
                 break;
             }
             self.solve_impacts();
@@ -97,16 +97,16 @@ impl IslandStep<'_, '_> {
     }
 
     /// Sets the impulses of impacts; returns whether another solve sees more of them.
-    fn settle_impacts(&mut self) -> bool {
+    fn settle_impacts(&mut self, first: bool) -> bool {
         let rows = &self.buffers.rows;
         let of_body = |i: usize, arm: &Vector3<f64>| vector(&rows[6 * i..]) + vector(&rows[6 * i + 3..]).cross(arm);
         let on_obstacles = self.cables.iter_mut().fold(false, |any, cable| {
             let StepVectors { contact, landed, .. } = &mut cable.step_buffers;
-            contact.settle_impacts(|e, shape| combine(landed, e, shape), of_body) || any
+            contact.settle_impacts(|e, shape| combine(landed, e, shape), of_body, first) || any
         });
         let cables = &*self.cables;
         let landed = |c: usize, e: usize, shape: &[f64; 4]| combine(&cables[c].step_buffers.landed, e, shape);
-        self.buffers.pairs.settle_impacts(landed) || on_obstacles
+        self.buffers.pairs.settle_impacts(landed, first) || on_obstacles
     }
 }
 

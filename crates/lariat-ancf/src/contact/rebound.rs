@@ -1,0 +1,205 @@
+//! The normal force over a step: the law of depth, with the loss of an impact in it.
+//!
+//! # Equation
+//!
+//! With d0 and d1 the depths that count when the step begins and ends, p the law of depth, W its
+//! energy (law.rs), and `s = (d0 - d1)/h` the mean speed with which the surfaces part,
+//!
+//! ```text
+//! N = p(d1) min(1, max(0, (u - s)/v))        v = 1 cm/s,  u the largest speed of separation
+//! ```
+//!
+//! A contact that closes, or opens slowly, follows the law of depth; one that opens faster than u
+//! does not push. So what the law has stored cannot throw a cable off faster than u, whatever its
+//! stiffness and mass, and however many steps resolve the touch. u is at least v, and e times the
+//! speed v0 of the first touch, e > 0 the coefficient of restitution. The step sees the mean speed,
+//! but it is the speed at its end that is bound: with s0 that at the beginning and b of the one-leg
+//! formula,
+//!
+//! ```text
+//! s1 = s0 + (s - s0)/b <= u      so  s <= (1 - b) s0 + b u,   at least v and at most u
+//! ```
+//!
+//! Without restitution the law is that of depth alone. While the touch is resolved, `h v0 < 5/2 d*`
+//! with `W(d*) = rho v0^2/2` (`h omega < 5/2` of a law of constant stiffness), the force is the
+//! secant `(W(d1) - W(d0))/(d1 - d0)` in place of `p(d1)`: it loses nothing, so that the bound on s
+//! alone decides what is given back. It acts also in the step that ends above the surface.
+//!
+//! # Energy
+//!
+//! W is convex, so `p(d1) (d1 - d0) >= W(d1) - W(d0)`. N is `p(d1)`, or less where the contact
+//! opens, and then takes less back: the loss `W(d0) - W(d1) + N (d1 - d0)` is at least 0 in every
+//! step.
+//!
+//! # Validity
+//!
+//! Where a step does not resolve the touch the mean speed says little: what it leaves is bound when
+//! it ends ([`impact`](super::impact)), to the same e. The two meet at `h v0 = 5/2 d*`: from there
+//! on a touch ends within the step in which it begins or the next one. The mass rho is that of the
+//! cable alone; beside a much lighter body it is less.
+//!
+//! A bounce at v reaches 5 um. A contact that is relieved comes up by its depth, some um, at v; one
+//! that rests has `s = 0` and the law of depth.
+//!
+//! # References
+//!
+//! Hunt & Crossley, J. Appl. Mech. 42 (1975) 440 (a normal force that depends on the rate of
+//! depth); Moreau, in Nonsmooth Mechanics and Applications, 1988 (the limit v -> 0: a maximal
+//! monotone law of the speed of separation).
+//!
+//! # Alternatives considered
+//!
+//! docs/decisions/restitution.md: Hunt & Crossley's law itself, hysteresis in the depth, and an
+//! impact at the end of the step alone.
+
+use super::law::{NormalLaw, Pressure};
+use crate::scales::contact::{DEPTHS, RESOLVED, SLOW};
+
+/// What a contact may give back in a step.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::contact) struct Rebound {
+    /// Largest mean speed of separation in m/s; infinite where the law is that of depth.
+    pub limit: f64,
+    /// Whether the force is the secant of the energy.
+    pub elastic: bool,
+}
+
+impl Default for Rebound {
+    fn default() -> Self {
+        Rebound { limit: f64::INFINITY, elastic: false }
+    }
+}
+
+/// Returns whether a step of length `h` (s) resolves the touch of a mass per length (kg/m) that
+/// came with a speed (m/s).
+pub(in crate::contact) fn is_resolved(law: &NormalLaw, h: f64, mass: f64, speed: f64) -> bool {
+    h * speed < RESOLVED * law.depth_of_energy(0.5 * mass * speed * speed)
+}
+
+impl Rebound {
+    /// Returns what a contact gives back that came with a speed and of which restitution leaves
+    /// `fastest`, if it opens with the speed `opens` when the step begins (m/s).
+    pub fn new(fastest: f64, opens: f64, b: f64, elastic: bool) -> Self {
+        let fastest = fastest.max(SLOW);
+        Rebound { limit: ((1.0 - b) * opens + b * fastest).clamp(SLOW, fastest), elastic }
+    }
+}
+
+/// The normal force as a function of the depth at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::contact) struct Push<'a> {
+    pub law: &'a NormalLaw,
+    pub rebound: Rebound,
+    /// Depth in m when the step begins.
+    pub start: f64,
+    /// Length of the step in s.
+    pub h: f64,
+}
+
+impl Push<'_> {
+    /// Returns the share of the force that acts at a depth (m), and its derivative in 1/m.
+    fn share(&self, depth: f64) -> (f64, f64) {
+        let opens = (self.start - depth) / self.h;
+        let share = (self.rebound.limit - opens) / SLOW;
+        if share >= 1.0 {
+            (1.0, 0.0)
+        } else if share > 0.0 {
+            (share, 1.0 / (SLOW * self.h))
+        } else {
+            (0.0, 0.0)
+        }
+    }
+
+    /// Returns the force per length at a depth (m), its derivative, and the energy that is stored.
+    pub fn at(&self, depth: f64) -> Pressure {
+        let mut out = self.law.at(depth);
+        if self.rebound.elastic && depth.max(self.start) > 0.0 {
+            let (way, before) = (depth - self.start, self.law.at(self.start));
+            // of a small way the difference of the energies is lost in rounding
+            if way.abs() > 1e-6 * depth.abs() {
+                let force = (out.energy - before.energy) / way;
+                (out.force, out.slope) = (force, (out.force - force) / way);
+            } else {
+                (out.force, out.slope) = (0.5 * (out.force + before.force), 0.5 * out.slope);
+            }
+        }
+        let (share, growth) = self.share(depth);
+        if share < 1.0 {
+            (out.force, out.slope) = (share * out.force, share * out.slope + growth * out.force);
+        }
+        out
+    }
+
+    /// Returns the depth at which the force per length is `force` > 0 (N/m).
+    pub fn depth_of(&self, force: f64) -> f64 {
+        let plain = self.law.depth_of(force);
+        if !self.rebound.elastic && self.share(plain).0 >= 1.0 {
+            return plain;
+        }
+        // the force grows with the depth
+        let (mut low, mut high) = ((self.start - self.rebound.limit * self.h).min(0.0), plain.max(self.start));
+        for _ in 0..DEPTHS {
+            if self.at(high).force >= force {
+                break;
+            }
+            (low, high) = (high, 2.0 * high.abs() + plain);
+        }
+        let mut depth = high;
+        for _ in 0..DEPTHS {
+            let at = self.at(depth);
+            if (at.force - force).abs() <= 1e-13 * force {
+                break;
+            } else if at.force > force {
+                high = depth;
+            } else {
+                low = depth;
+            }
+            let next = depth - (at.force - force) / at.slope;
+            depth = if next >= low && next <= high { next } else { 0.5 * (low + high) };
+        }
+        depth
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slopes are the derivatives of forces, the depth of a force is the inverse, and no step makes
+    /// energy, whichever way it goes.
+    ///
+    /// *Source.* Central differences; the definition of the loss.
+    #[test]
+    fn the_force_grows_with_depth_and_makes_no_energy() {
+        let law = NormalLaw::new(1e9, 5e-3);
+        for elastic in [false, true] {
+            for (h, limit) in [(1e-6, 0.01), (1e-5, 0.6), (1e-3, 0.01), (4e-3, 2.0)] {
+                for start in [-3e-3, -1e-6, 0.0, 2e-6, 8e-5, 4e-4] {
+                    let rebound = Rebound { limit, elastic };
+                    let push = Push { law: &law, rebound, start, h };
+                    let mut last = 0.0;
+                    for k in 1..400 {
+                        let depth = 2e-6 * f64::from(k) * 1.0007;
+                        let at = push.at(depth);
+                        let loss = law.at(start).energy - at.energy + at.force * (depth - start);
+                        assert!(loss >= -1e-12 * at.energy.max(law.at(start).energy), "{elastic} {start} {depth}");
+                        assert!(at.force >= last, "{elastic} {start} {depth}");
+                        last = at.force;
+                        let d = 1e-4 * depth;
+                        let (low, high) = (push.at(depth - d), push.at(depth + d));
+                        let corner = push.share(depth - d).1 != push.share(depth + d).1;
+                        let smooth = !corner && (depth - start).abs() > 2.0 * d && (depth - 1e-4).abs() > 2.0 * d;
+                        if smooth {
+                            let slope = (high.force - low.force) / (2.0 * d);
+                            assert!((slope - at.slope).abs() <= 1e-5 * at.slope + 1e-3, "{slope} {at:?}");
+                        }
+                        if at.force > 0.0 {
+                            let found = push.at(push.depth_of(at.force)).force;
+                            assert!((found / at.force - 1.0).abs() < 1e-9, "{elastic} {start} {depth}: {found} {at:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
