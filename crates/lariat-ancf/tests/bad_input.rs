@@ -4,9 +4,10 @@
 mod common;
 
 use common::pendulum;
+use lariat_ancf::integrate::OneStep;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Drag, Effects, Error, Fidelity, Flow, GravityScale, Integrator, Method, Motion, PointLoad,
-    Rule, Section, SlopeSupport, StepControl, Support, Vector3,
+    At, Cable, CableBuilder, Drag, Effects, Error, ErrorNorm, Fidelity, Flow, GravityScale, Integrator, Method, Motion,
+    PointLoad, Rule, Section, SlopeSupport, StepControl, Support, Vector3,
 };
 
 /// Numbers that are never accepted where a positive finite number is needed.
@@ -145,6 +146,13 @@ fn unknown_and_unsuitable_rules_and_integrators_are_errors() {
         pendulum(4).integrator(verlet).build().err(),
         Some(Error::NoErrorEstimate { method: "verlet".to_string() })
     );
+    // a norm that the estimate of the method does not have is refused, not ignored
+    let method = Method::DiscreteGradientWith { dissipation: 1.0 / 256.0 };
+    for norm in ErrorNorm::ALL {
+        let checked = Integrator { method, control: StepControl::ToleranceOf(1e-4, norm) }.checked();
+        let refused = Error::NoErrorNorm { method: method.name(), norm: norm.name() };
+        assert_eq!(checked.err(), (norm != ErrorNorm::Bodies).then_some(refused));
+    }
 }
 
 /// Bad numbers given to a built cable are errors that carry them and the cable's name, and change

@@ -164,6 +164,7 @@ impl From<lariat_ancf::Error> for Raise {
             UnknownFidelity { name, suggestion }
             UnknownNorm { name, suggestion }
             NoErrorEstimate { method }
+            NoErrorNorm { method, norm: |x: &&'static str| *x }
             NoStabilityLimit { method }
             ExplicitDamping { cable, method }
             RankDeficient { rule, reason: |x: &&'static str| *x }

@@ -245,6 +245,17 @@ pub enum Error {
         /// Name of the method.
         method: String,
     },
+    /// A norm that the estimate of a method does not have.
+    #[error(
+        "integrator {method}: its tolerance bounds the errors of free bodies, without any those of the motion, \
+         which is the norm \"bodies\", not {norm:?}"
+    )]
+    NoErrorNorm {
+        /// Name of the method.
+        method: String,
+        /// Name of the norm.
+        norm: &'static str,
+    },
     /// A share of the stability limit for an implicit method, which has none.
     #[error("integrator {method}: only explicit methods have a stability limit; give a tolerance or substeps")]
     NoStabilityLimit {

@@ -118,7 +118,8 @@ impl IntegratorRef<'_> {
     /// Checks that the method supports the step control.
     ///
     /// # Errors
-    /// [`Error::NoErrorEstimate`], [`Error::NoStabilityLimit`] or [`Error::InvalidValue`].
+    /// [`Error::NoErrorEstimate`], [`Error::NoErrorNorm`], [`Error::NoStabilityLimit`] or
+    /// [`Error::InvalidValue`].
     pub fn check(&self) -> Result<(), Error> {
         self.method.check()?;
         match self.control {
@@ -126,6 +127,11 @@ impl IntegratorRef<'_> {
                 require("tolerance (m)", tolerance, tolerance > 0.0, "> 0")?;
                 if self.method.estimate_order().is_none() {
                     return Err(Error::NoErrorEstimate { method: self.method.name() });
+                }
+                if let StepControl::ToleranceOf(_, norm @ (ErrorNorm::Every | ErrorNorm::Motion)) = self.control
+                    && self.method.uses_discrete_gradients()
+                {
+                    return Err(Error::NoErrorNorm { method: self.method.name(), norm: norm.name() });
                 }
             }
             StepControl::Substeps(substeps) => {

@@ -105,6 +105,10 @@ pub(crate) const MOST_STEPS: f64 = 64.0;
 /// the error of the second step is known.
 pub(crate) const FIRST_STEPS: f64 = 8.0;
 
+/// Shortest step in s under a tolerance once a limit to the work is spent. Derived: that of games,
+/// which a host step can afford.
+pub(crate) const STEP_BEYOND_LIMIT: f64 = 1.0 / 240.0;
+
 /// Least and largest ratio of a step to the one before under a tolerance. Unknown: an estimate says
 /// little about steps beyond.
 pub(crate) const RATIOS_OF_STEPS: [f64; 2] = [0.2, 2.0];

@@ -16,8 +16,8 @@ table! {
         method: Option<Method> = ("`\"esdirk4\"`"), Kind::Parsed { accepted: "a name of `lariat integrators`", parse: parse_as::<Method> };
         /// Error of position per host step, for a method with an error estimate; at least 1e-14 of the length of the cable.
         tolerance: Option<f64> = (), Kind::Number(POSITIVE), "m";
-        /// Which errors the tolerance bounds: `"every"` node and body with its vibrations, the `"motion"` that is slow beside the host step, or the free `"bodies"` that the cable moves.
-        norm: Option<ErrorNorm> = ("`\"every\"`"), Kind::Choice(|| ErrorNorm::ALL.map(ErrorNorm::name).to_vec());
+        /// Which errors the tolerance bounds: `"every"` node and body with its vibrations, the `"motion"` that is slow beside the host step, or the free `"bodies"` that the cable moves. The method `"discrete-gradient"` knows the last alone, which without bodies is that of the motion.
+        norm: Option<ErrorNorm> = ("`\"every\"`; `\"bodies\"` of the discrete gradient"), Kind::Choice(|| ErrorNorm::ALL.map(ErrorNorm::name).to_vec());
         /// Equal steps in each host step.
         substeps: Option<u32> = (), Kind::Whole(1, MANY);
         /// Longest step.

@@ -12,18 +12,19 @@
 //!
 //! and the rest of the host step is divided evenly. Steps are not shorter than H/64: one of that
 //! length is accepted whatever its error, and [counted](crate::Diagnostics::unresolved_steps),
-//! because the energy law holds at any step. Where the error is not known, after an impact or a
-//! change by the host, the length stays.
+//! because the energy law holds at any step. Beyond a [limit](crate::integrate::WorkLimit) to the
+//! work, steps are as long as those of games, and taken whatever their error. Where the error is
+//! not known, after an impact or a change by the host, the length stays.
 
 use super::safeguard::{Advanced, Demand};
 use super::{DiscreteGradientSystem, safeguard};
 use crate::error::StepFailure;
 use crate::integrate::step_control::{Counts, FailedStep};
-use crate::integrate::{IntegratorRef, StepControl};
+use crate::integrate::{IntegratorRef, StepControl, WorkLimit};
 use crate::one_leg::OneLeg;
 use crate::scales::integrate::{
     FIRST_STEPS, LARGEST_RETRY, MIN_ERROR_SHARE, MIN_STEP_SHARE, MOST_STEPS, RATIOS_OF_STEPS,
-    SINGLE_PRECISION_ROUNDING, TARGET_ERROR_SHARE,
+    SINGLE_PRECISION_ROUNDING, STEP_BEYOND_LIMIT, TARGET_ERROR_SHARE,
 };
 
 /// Advances the system by `horizon` (s), and returns the numbers of steps with the outcome. After a
@@ -84,11 +85,13 @@ fn controlled<S: DiscreteGradientSystem>(
     let mut left = horizon;
     system.begin();
     while left > 0.0 {
-        let parts = (left / proposal.max(least) - 1e-9).ceil().max(1.0);
+        let spent = demand.limit.is_some_and(WorkLimit::is_spent);
+        let least_now = if spent { least.max(STEP_BEYOND_LIMIT) } else { least };
+        let parts = (left / proposal.max(least_now) - 1e-9).ceil().max(1.0);
         let (h, time) = (left / parts, system.time());
         let allowed = tolerance * (h / horizon).max(MIN_ERROR_SHARE);
         let shortest = h <= least * (1.0 + 1e-9);
-        demand.allowed = if shortest { f64::INFINITY } else { allowed };
+        demand.allowed = if shortest || spent { f64::INFINITY } else { allowed };
         let next = |error: f64| {
             h * (TARGET_ERROR_SHARE * allowed / error).sqrt().clamp(RATIOS_OF_STEPS[0], RATIOS_OF_STEPS[1])
         };
