@@ -91,6 +91,10 @@ pub struct RigidBody {
     /// Inertia of the bodies that move with it, beyond its own, about its centre of mass in world
     /// axes: velocity before angular velocity (kg, kg m, kg m^2). Default: none.
     pub carried: Option<Matrix6<f64>>,
+    /// Part of `torque` in N m, in world axes at the present attitude, that turns with the body, as
+    /// does the carried inertia under the [discrete
+    /// gradient](crate::integrate::discrete_gradient). Default: zero.
+    pub turning_torque: Vector3<f64>,
     /// Whether the gyroscopic torque -omega x I omega acts (some engines omit it). Default: true.
     pub gyroscopic: bool,
     /// Accelerations that integrators carry from step to step; `None` if the state is not the
@@ -170,6 +174,7 @@ impl RigidBody {
             torque: Vector3::zeros(),
             free: [true; 6],
             carried: None,
+            turning_torque: Vector3::zeros(),
             gyroscopic: true,
             memory: None,
             unsteadiness: Default::default(),

@@ -1,5 +1,5 @@
 //! Restoring the momenta that a step of the [discrete
-//! gradient](crate::integrate::discrete_gradient) takes from what nothing holds.
+//! gradient](crate::integrate::discrete_gradient) takes from what nothing holds, or one point.
 //!
 //! # Equation
 //!
@@ -20,6 +20,9 @@
 //! I w = L_0 + q_m x h F - L_1 + (what earlier steps owe)      all about the centre of mass c
 //! ```
 //!
+//! Of a system that turns freely about one point at rest, c is that point, and V and p are zero:
+//! what holds it has no moment about it.
+//!
 //! V, W is the rigid motion with the momenta of all. The last term is orthogonal to rigid motions
 //! in the norm of the kinetic energy, so momenta stay, and u is what keeps the kinetic energy: the
 //! energy law is that of the step, exactly. Energy for p and w comes first from what the method
@@ -29,8 +32,9 @@
 //!
 //! # Validity
 //!
-//! Without supports, driven or locked bodies, bodies that carry others, contact with obstacles,
-//! stock outside of the system, or bodies without gyroscopic torque, whose angular momentum is not
+//! Without supports but one that holds a node, not its slope, at rest, or one such hold of a driven
+//! body; without locked bodies, bodies that carry others, contact with obstacles, stock outside of
+//! the system, or bodies without gyroscopic torque, whose angular momentum is not
 //! constant: there nothing is restored. The memory O v is what the equations of motion made, and
 //! stays: the law holds for any v at the beginning of a step.
 //!
@@ -54,6 +58,8 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 /// Sums over all cables and bodies.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Momenta {
+    /// The one point that is held, at rest, if there is one.
+    pivot: Option<Vector3<f64>>,
     mass: f64,
     /// Sum of mass times place.
     first: Vector3<f64>,
@@ -108,6 +114,11 @@ pub(crate) fn outside_impulses(q: &[f64], b: &StepVectors) -> [Vector3<f64>; 2] 
 }
 
 impl Momenta {
+    /// Those of a system that nothing holds, or that turns freely about a point at rest.
+    pub fn about(pivot: Option<Vector3<f64>>) -> Self {
+        Momenta { pivot, ..Momenta::default() }
+    }
+
     /// Adds the second difference of the velocities of a cable whose step has just ended.
     pub fn add_second_difference(&mut self, system: &System, state: &State, b: &mut StepVectors) {
         let StepVectors { velocity_change, velocity_before, external, product, .. } = b;
@@ -162,25 +173,29 @@ impl Momenta {
         self.squares.iter_mut().for_each(|x| *x += v.dot(&p) + spin.dot(&own));
     }
 
+    /// Returns the point about which moments are taken: the one that is held, else the centre of
+    /// mass.
     fn centre(&self) -> Vector3<f64> {
-        self.first / self.mass
+        self.pivot.unwrap_or(self.first / self.mass)
     }
 
-    /// Returns the linear momentum, the angular momentum about the centre of mass, and this.
+    /// Returns the linear momentum, the angular momentum about the [centre](Self::centre), and
+    /// this.
     pub fn before(&self) -> Before {
         [self.all[0], self.angular()[1], self.centre()]
     }
 
-    /// Returns the angular momentum about the centre of mass, of M v and with what flows.
+    /// Returns the angular momentum about the [centre](Self::centre), of M v and with what flows.
     fn angular(&self) -> [Vector3<f64>; 2] {
         [self.own, self.all].map(|[p, l]| l - self.centre().cross(&p))
     }
 
-    /// Returns the angular velocity with an angular momentum about the centre of mass.
+    /// Returns the angular velocity with an angular momentum about the [centre](Self::centre).
     fn spin_of(&self, angular: &Vector3<f64>) -> Vector3<f64> {
         let of = |second: &Matrix3<f64>| Matrix3::identity() * second.trace() - second;
         let c = self.centre();
-        let inertia = of(&self.second) - of(&(c * c.transpose() * self.mass)) + self.inertia;
+        let shifted = self.first * c.transpose() + c * self.first.transpose() - c * c.transpose() * self.mass;
+        let inertia = of(&self.second) - of(&shifted) + self.inertia;
         let mut all = Matrix6::zeros();
         all.fixed_view_mut::<3, 3>(0, 0).copy_from(&(0.5 * (inertia + inertia.transpose())));
         let mut rhs = Vector6::zeros();
@@ -200,11 +215,13 @@ impl Momenta {
         let [own, all] = self.angular();
         let middle = 0.5 * (centre + self.centre());
         let missing = before + moment - middle.cross(&force) - all + vector(&owed[3..]);
-        let lost = momentum + force - self.all[0] + vector(owed);
+        // what holds a point gives and takes momentum, but no angular momentum about it
+        let held = self.pivot.is_some();
+        let lost = if held { Vector3::zeros() } else { momentum + force - self.all[0] + vector(owed) };
         let [p, l] = self.second_difference;
         let second = l - self.centre().cross(&p);
         let ([p, _], [with_feed, _]) = (self.own, self.all);
-        let (velocity, spin) = (p / self.mass, self.spin_of(&own));
+        let (velocity, spin) = (if held { Vector3::zeros() } else { p / self.mass }, self.spin_of(&own));
         let mut turn = Turn {
             centre: self.centre(),
             push: lost / self.mass,

@@ -5,7 +5,7 @@ use crate::one_leg::OneLeg;
 use crate::state::State;
 use nalgebra::Vector3;
 
-/// Linear momentum, angular momentum about the centre of mass, and the centre.
+/// Linear momentum, angular momentum about the centre of mass or the point that is held, and this.
 pub(crate) type Before = [Vector3<f64>; 3];
 
 /// Vectors of a step, with as many numbers as there are coordinates; empty until the method is
@@ -49,8 +49,10 @@ pub(crate) struct StepVectors {
     pub contact: ContactStep,
     /// Impulses of contacts with cables; empty without any.
     pub pair_impulses: Vec<f64>,
-    /// Where nothing holds the cable, the momenta when the step begins.
+    /// Where nothing holds the cable, or one point, the momenta when the step begins.
     pub before: Option<Before>,
+    /// The one point at rest that is held, in the first cable.
+    pub pivot: Option<Vector3<f64>>,
     /// Those of the end of the step before, if it was in the same host step.
     pub after: Option<Before>,
     /// Impulse and angular impulse about the origin of the forces without potential, if they are

@@ -74,6 +74,7 @@ pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<Rigid
             allowed(LockedAxes::ROTATION_LOCKED_Z) && turns,
         ],
         carried: None,
+        turning_torque: Vector3::zeros(),
         gyroscopic: body.gyroscopic_forces_enabled(),
         memory: None,
         unsteadiness: Default::default(),

@@ -117,6 +117,7 @@ impl Group {
             for x in 0..3 {
                 body.force[x] += loads[6 * a + x];
                 body.torque[x] += loads[6 * a + 3 + x];
+                body.turning_torque[x] += loads[6 * a + 3 + x];
             }
             for (b, &other) in self.members.iter().enumerate().skip(a + 1) {
                 coupled.push(CoupledInertia { bodies: [m, other], matrix: Self::block(&self.inertia, a, b) });

@@ -17,7 +17,12 @@
 //! (R0 a + R1 a)/2)`.
 //!
 //! B = diag(m, I) plus the carried inertia, which is constant with its rotations in body axes
-//! during a host step.
+//! during a host step; so is the torque of what it carries, to which the factor of tau does not
+//! apply: inertia and load of a joint that holds the body are some 1e4 times the body's own, and a
+//! load that turns otherwise than the inertia spins a slender body about its axis.
+//!
+//! What a residual row r leaves unbalanced is judged by the velocities B^-1 r that it is worth: the
+//! momentum of the body with them, and the square root of m w.I w.
 //!
 //! # References
 //!
@@ -62,6 +67,10 @@ pub(in crate::island) struct BodyStep {
     pub free: [bool; 6],
     force: Vector3<f64>,
     torque: Vector3<f64>,
+    /// The torque that turns with the body, in body axes.
+    turning: Vector3<f64>,
+    /// B^-1, as far as it exists.
+    compliance: Matrix6<f64>,
     pub position: Vector3<f64>,
     pub rotation: UnitQuaternion<f64>,
     /// u at the present state.
@@ -108,6 +117,13 @@ impl BodyStep {
             turn.fixed_view_mut::<3, 3>(3, 3).copy_from(body.rotation.to_rotation_matrix().matrix());
             matrix += turn.transpose() * carried * turn;
         }
+        let own = body.carried.is_none();
+        let compliance = matrix.try_inverse().filter(|_| !own).unwrap_or_else(|| {
+            let mut inverse = Matrix6::from_diagonal_element(if body.mass > 0.0 { 1.0 / body.mass } else { 0.0 });
+            let angular = body.inertia.try_inverse().unwrap_or_else(Matrix3::zeros);
+            inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&angular);
+            inverse
+        });
         let spin = body.rotation.inverse() * body.angular_velocity;
         let last = match body.memory.as_ref().and_then(|memory| memory.differences.as_ref()) {
             Some(BodyDifferences { change, dissipation, step, .. }) => {
@@ -122,7 +138,9 @@ impl BodyStep {
             gyroscopic: body.gyroscopic,
             free: body.free,
             force: body.force,
-            torque: body.torque,
+            torque: body.torque - body.turning_torque,
+            turning: body.rotation.inverse() * body.turning_torque,
+            compliance,
             position: body.position,
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
@@ -213,7 +231,7 @@ impl BodyStep {
         let [_, spin] = self.mean;
         let impulse = Vector3::new(row[0], row[1], row[2]) + self.force * h;
         let angular = Vector3::new(row[3], row[4], row[5]) + self.torque * h;
-        let angular = angular - spin.cross(&angular) * (0.5 * h);
+        let angular = angular - spin.cross(&angular) * (0.5 * h) + self.rotation * self.turning * h;
         let [momentum, mut rotational] = split(&(self.matrix * self.change));
         if self.gyroscopic {
             let [_, middle] = split(&(self.velocity + 0.5 * self.change));
@@ -270,17 +288,40 @@ impl BodyStep {
         total.residual -= power(row);
         // the locks take what is left
         total.to(Account::Supports).work -= all - power(row);
-        total.imbalance += sum_of_forces(row);
-        total.impulse += self.mass * self.change.fixed_rows::<3>(0).norm() + self.h * self.force.norm();
+        total.imbalance += if self.mass > 0.0 {
+            self.momentum_size(&(self.compliance * self.in_body_axes(row)))
+        } else {
+            sum_of_forces(row)
+        };
+        let of_loads = self.compliance * stack([self.force, self.turning]) * self.h;
+        total.impulse += self.momentum_size(&self.change) + self.mass * split(&of_loads)[0].norm();
         let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * self.leg.a * second.dot(&(self.matrix * second));
-        total.to(Account::Loads).work += self.h * (self.force.dot(&self.mean[0]) + self.torque.dot(&self.mean[1]));
+        let torque = self.torque + self.rotation * self.turning;
+        total.to(Account::Loads).work += self.h * (self.force.dot(&self.mean[0]) + torque.dot(&self.mean[1]));
         total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * LEAST_HEIGHT;
+    }
+
+    /// Returns a row with its rotation in body axes.
+    fn in_body_axes(&self, row: &[f64]) -> Vector6<f64> {
+        let turned = self.rotation.inverse() * Vector3::new(row[3], row[4], row[5]);
+        stack([Vector3::new(row[0], row[1], row[2]), turned])
+    }
+
+    /// Returns how much momentum in N s a change of u is worth, what is carried apart.
+    fn momentum_size(&self, change: &Vector6<f64>) -> f64 {
+        let [v, spin] = split(change);
+        self.mass * v.norm() + (self.mass * spin.dot(&(self.inertia * spin))).max(0.0).sqrt()
     }
 
     /// Returns whether its motion is prescribed.
     pub fn is_driven(&self) -> bool {
         self.free == [false; 6]
+    }
+
+    /// Returns whether it is driven, and stands still.
+    pub fn is_at_rest(&self) -> bool {
+        self.is_driven() && self.velocity == Vector6::zeros()
     }
 
     /// Returns velocity and spin at the end of the step, in world axes.
@@ -320,8 +361,22 @@ impl BodyStep {
         let relative_spin = spin - self.end.inverse() * rigid.spin;
         let relative_spin = if self.free[3..] == [true; 3] { relative_spin } else { Vector3::zeros() };
         self.taken = stack([relative, relative_spin]);
+        if self.carries() {
+            self.taken = self.compliance * stack([relative * self.mass, self.inertia * relative_spin]);
+        }
         let momentum = self.matrix * self.taken;
         (0.5 * self.taken.dot(&momentum), end.dot(&momentum))
+    }
+
+    /// Returns what is taken from the velocity of a point that it holds, at the end of the step, or
+    /// from that of a slope vector, of which `before` would be taken: along it that stays.
+    pub fn taken_at(&self, anchor: &Vector3<f64>, slope: Option<Vector3<f64>>, before: &Vector3<f64>) -> Vector3<f64> {
+        let [velocity, spin] = split(&self.taken);
+        let spin = self.end * spin;
+        match slope.and_then(|slope| Some((slope, slope.try_normalize(0.0)?))) {
+            Some((slope, along)) => spin.cross(&slope) + along * along.dot(before),
+            None => velocity + spin.cross(&(self.end * anchor)),
+        }
     }
 
     /// Returns its velocity in a rigid motion of the island at the end of the step: along an axis,
@@ -397,6 +452,7 @@ impl BodyStep {
     /// Changes its velocities by a turn.
     pub fn turn(&mut self, turn: &Turn) {
         let [v, spin] = turn.of_body(&self.position, [split(&self.velocity)[0], self.spin()]);
+        let spin = if self.free[3..] == [true; 3] { spin } else { self.spin() };
         self.set_velocity(&v, &spin);
     }
 
@@ -404,6 +460,12 @@ impl BodyStep {
     /// momentum.
     pub fn is_free(&self) -> bool {
         self.free == [true; 6] && self.gyroscopic && !self.carries()
+    }
+
+    /// Returns whether nothing but cables acts on it beside its loads, and it is a point: without
+    /// inertia, so that it does not turn.
+    pub fn is_point(&self) -> bool {
+        self.free == [true, true, true, false, false, false] && self.inertia == Matrix3::zeros() && !self.carries()
     }
 
     /// Returns the angular velocity in world axes.

@@ -26,7 +26,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn predict(&mut self, step: &StepStart) {
-        self.note_angular_momentum();
+        self.note_angular_momentum(step.h);
         Terms::begin(self, step);
     }
 

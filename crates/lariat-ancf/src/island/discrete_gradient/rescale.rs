@@ -9,9 +9,16 @@
 //! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid
 //! motions in the norm of the kinetic energy, so its momentum and its angular momentum stay; with
 //! reels, or with bodies that carry others, which joints may hold, the translation of its centre of
-//! mass. Of one whose driven bodies and supports all move as one rigid body, it is their motion. Of
-//! any other there is none, and all velocities that nothing prescribes are scaled. Scaling those of
-//! cables and bodies together keeps pinned points on their bodies.
+//! mass. Of one that one point at rest holds, whose angular momentum about it is restored, it is
+//! the rotation about that point with that angular momentum. Of one whose driven bodies and
+//! supports all move as one rigid body, it is their motion. Of any other there is none, and all
+//! velocities that nothing prescribes are scaled. Scaling those of cables and bodies together keeps
+//! pinned points on their bodies.
+//!
+//! What joints hold of a body that carries others has 1e4 times its inertia, and an energy that no
+//! body of the engine has. Of such a body, with inertia B and M of its own, only `B^-1 M w` is
+//! scaled, which is next to nothing along what joints hold: what a step makes is not paid from
+//! there.
 //!
 //! # Alternatives considered
 //! The translation alone: of two balls on a stiff cable of which one was kicked, a step took 0.19
@@ -37,6 +44,12 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
     }
     let rigid = rigid_motion(island);
     let (mut energy, mut product) = (0.0, 0.0);
+    for body in &mut island.buffers.bodies {
+        let (own, with_all) = body.take_relative(&rigid);
+        energy += own;
+        product += with_all;
+    }
+    let bodies = &island.buffers.bodies;
     for (cable, own) in island.cables.iter_mut().zip(&island.buffers.cables) {
         let CableStep { equations, state, buffers: b } = cable.step_parts();
         for i in 0..b.change.len() {
@@ -55,18 +68,20 @@ pub(in crate::island) fn rescale(island: &mut IslandStep<'_, '_>, balance: &mut 
         for (node, support) in equations.model.supports.iter().filter(|(_, support)| !support.attached) {
             support.project(&mut b.taken[6 * node..6 * node + 6]);
         }
-        for hold in own.holds.iter().filter(|hold| island.buffers.bodies[hold.body].is_driven()) {
-            b.taken[hold.at..hold.at + 3].fill(0.0);
+        for hold in &own.holds {
+            let (body, anchor) = (&bodies[hold.body], &island.layout.pins[hold.pin].anchor);
+            let held = &mut b.taken[hold.at..hold.at + 3];
+            if body.is_driven() {
+                held.fill(0.0);
+            } else if body.carries() {
+                let slope = hold.slope.then(|| vector(&state.q[hold.at..]) + vector(&b.change[hold.at..]));
+                held.copy_from_slice(body.taken_at(anchor, slope, &vector(held)).as_slice());
+            }
         }
         energy += 0.5 * equations.system.mass_square(&b.taken, &mut b.product);
         product += dot(&b.external, &b.product);
     }
-    for body in &mut island.buffers.bodies {
-        let (own, with_all) = body.take_relative(&rigid);
-        energy += own;
-        product += with_all;
-    }
-    let (bodies, coupled) = (&island.buffers.bodies, &island.buffers.coupled);
+    let coupled = &island.buffers.coupled;
     energy += 0.5 * coupled_product(coupled, |i| bodies[i].taken, |i| bodies[i].taken);
     product += coupled_product(coupled, |i| bodies[i].final_velocity(), |i| bodies[i].taken);
     let share = share_to_take(energy, product, balance.surplus(), largest_share);
@@ -105,6 +120,12 @@ fn rescale_alone(cable: &mut Cable, balance: &mut Balance, largest_share: f64) -
 
 /// Returns the rigid motion that an island may keep, at the end of the step.
 fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
+    let reels = island.cables.iter().any(|cable| !cable.system.feeds.is_empty());
+    let first = &island.cables[0].step_buffers;
+    if first.before.is_some() && !reels {
+        let pivot = first.pivot;
+        return projection(island, pivot);
+    }
     let mut common = None;
     for cable in island.cables.iter_mut() {
         let CableStep { equations, state, buffers: b } = cable.step_parts();
@@ -124,20 +145,20 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         }
     }
     common.unwrap_or_else(|| {
-        let reels = island.cables.iter().any(|cable| !cable.system.feeds.is_empty());
         if reels || island.buffers.bodies.iter().any(BodyStep::carries) {
             RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() }
         } else {
-            projection(island)
+            projection(island, None)
         }
     })
 }
 
 /// Returns the rigid motion with the momenta of an island that nothing holds, at the end of the
-/// step.
-fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
+/// step, or the rotation about the one point that holds it.
+fn projection(island: &mut IslandStep<'_, '_>, pivot: Option<Vector3<f64>>) -> RigidMotion {
     let (mut matrix, mut momenta) = (Matrix6::zeros(), Vector6::zeros());
-    let centre = island.buffers.bodies.first().map_or_else(Vector3::zeros, |body| body.position + body.displacement());
+    let of_body = || island.buffers.bodies.first().map(|body| body.position + body.displacement());
+    let centre = pivot.or_else(of_body).unwrap_or_else(Vector3::zeros);
     for cable in island.cables.iter_mut() {
         let CableStep { equations, state, buffers } = cable.step_parts();
         // the other buffers are free now
@@ -150,12 +171,17 @@ fn projection(island: &mut IslandStep<'_, '_>) -> RigidMotion {
         let modes = Modes { q: taken, origin: centre };
         modes.add_momenta(equations.system, (0, rhs), [product, external], (&mut matrix, &mut momenta));
     }
-    for body in &island.buffers.bodies {
+    for body in island.buffers.bodies.iter().filter(|body| !body.is_driven()) {
         for k in 0..6 {
             let momentum = body.momentum_of(&body.velocity_in(k, &centre));
             momenta[k] += momentum.dot(&body.final_velocity());
             (0..6).for_each(|j| matrix[(j, k)] += momentum.dot(&body.velocity_in(j, &centre)));
         }
+    }
+    if pivot.is_some() {
+        matrix.fixed_rows_mut::<3>(0).fill(0.0);
+        matrix.fixed_columns_mut::<3>(0).fill(0.0);
+        momenta.fixed_rows_mut::<3>(0).fill(0.0);
     }
     let motion = solve(&mut matrix, momenta);
     let [velocity, spin] = [0, 3].map(|k| motion.fixed_rows::<3>(k).into_owned());
