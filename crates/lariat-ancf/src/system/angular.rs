@@ -32,11 +32,11 @@
 //!
 //! # Validity
 //!
-//! Without supports but one that holds a node, not its slope, at rest, or one such hold of a driven
-//! body; without locked bodies, bodies that carry others, contact with obstacles, stock outside of
-//! the system, or bodies without gyroscopic torque, whose angular momentum is not
-//! constant: there nothing is restored. The memory O v is what the equations of motion made, and
-//! stays: the law holds for any v at the beginning of a step.
+//! Without supports but, of an island with bodies that move, one that holds a node, not its slope,
+//! at rest, or one such hold of a driven body; without locked bodies, bodies that carry others,
+//! contact with obstacles, stock outside of the system, or bodies without gyroscopic torque, whose
+//! angular momentum is not constant: there nothing is restored. The memory O v is what the
+//! equations of motion made, and stays: the law holds for any v at the beginning of a step.
 //!
 //! # References
 //!

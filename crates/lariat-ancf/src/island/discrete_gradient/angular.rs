@@ -60,6 +60,8 @@ impl IslandStep<'_, '_> {
                 Held::Otherwise
             }
             Held::Free if bodies.iter().any(BodyStep::is_driven) => Held::Otherwise,
+            // a cable alone takes 7 % more iterations with it, in some seconds 50 %
+            Held::At(_) if self.moving().next().is_none() => Held::Otherwise,
             held => held,
         }
     }
