@@ -78,6 +78,7 @@ pub mod warning;
 mod watch;
 
 pub use at::At;
+pub use cable::TorsionReading;
 pub use cable::builder::CableBuilder;
 pub use cable::energy::{Energy, Momentum};
 pub use cable::mesh::{MeshIndicator, MotionIndicator};
@@ -86,8 +87,9 @@ pub use cable::sample::Sample;
 pub use cable::{Cable, ReelReading, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
-    AxialLaw, Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, Flow, ForceDensity,
-    ForceDerivatives, GravityScale, LineLoad, LineLoads, Potential, RestPiece, RestShape, RopeKind,
+    AxialLaw, Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, EndSpin, Flow,
+    ForceDensity, ForceDerivatives, GravityScale, LineLoad, LineLoads, Potential, RestPiece, RestShape, RopeKind,
+    Torsion,
 };
 pub use element::{axial, bending};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};

@@ -33,6 +33,7 @@ fn all() -> Effects {
         axial_law: None,
         // with every method, and contact has one
         contact: None,
+        torsion: None,
     }
 }
 

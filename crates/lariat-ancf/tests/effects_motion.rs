@@ -23,8 +23,9 @@ fn all() -> Effects {
         gravity_scale: Some(GravityScale(0.9)),
         // it has no rest stretch beside it: `axial_laws.rs`
         axial_law: None,
-        // with every method, and contact has one
+        // with every method, and contact and torsion have one
         contact: None,
+        torsion: None,
     }
 }
 

@@ -33,6 +33,7 @@ fn all() -> Effects {
         axial_law: None,
         // with every method, and contact has one
         contact: None,
+        torsion: None,
     }
 }
 
@@ -47,7 +48,17 @@ fn allowed(name: &str, mut effects: Effects) -> Effects {
 
 /// Every effect alone, none, and all.
 fn each() -> Vec<(&'static str, Effects)> {
-    let Effects { damping, drag, buoyancy, rest_shape, line_loads, gravity_scale, axial_law: _, contact: _ } = all();
+    let Effects {
+        damping,
+        drag,
+        buoyancy,
+        rest_shape,
+        line_loads,
+        gravity_scale,
+        axial_law: _,
+        contact: _,
+        torsion: _,
+    } = all();
     let none = Effects::default;
     vec![
         ("none", none()),

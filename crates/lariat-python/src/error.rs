@@ -153,6 +153,7 @@ impl From<lariat_ancf::Error> for Raise {
             ObstacleKey { cable, key: |x: &u64| *x as usize }
             ObstacleBody { cable, key: |x: &u64| *x as usize, body, bodies }
             ContactMethod { cable, method }
+            TorsionPlace { cable, by }
             OneElement { cable }
             ExplicitReel { cable, method }
             ReelMethod { cable, method, reason: |x: &&'static str| *x }

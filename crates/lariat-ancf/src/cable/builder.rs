@@ -331,11 +331,9 @@ impl CableBuilder {
             drawn: drawn_ends,
             least_damping: 0.0,
         };
-        // contact has one method that can step it
-        let default = match &model.effects.contact {
-            Some(_) => Fidelity::Game,
-            None => Fidelity::default(),
-        };
+        // contact and torsion have one method that can step them
+        let needs_game = model.effects.contact.is_some() || model.effects.torsion.is_some();
+        let default = if needs_game { Fidelity::Game } else { Fidelity::default() };
         let mut cable = Cable::from_parts(model, snapshot, default.integrator(f64::INFINITY))?;
         let slack = !cable.model.drawn.is_empty();
         let mut turned = Vec::new();

@@ -10,6 +10,10 @@ pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<()
     if model.effects.contact.is_some() && !method.uses_discrete_gradients() {
         return Err(Error::ContactMethod { cable: model.name.clone(), method: method.name() });
     }
+    if model.effects.torsion.is_some() && !method.uses_discrete_gradients() {
+        let by = format!("by {}: use discrete-gradient", method.name());
+        return Err(Error::TorsionPlace { cable: model.name.clone(), by });
+    }
     if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
         return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
     }

@@ -21,8 +21,8 @@ impl Cable {
 
     /// Replaces all effects from the next step on. Positions and velocities stay as they are. Not
     /// meant for every step, because it builds tables and factors the mass matrix. A cable with the
-    /// default integrator gets that of the fidelity `game` with [`Contact`], one for which the
-    /// fidelity `engineering` was chosen [`Integrator::COUPLED`].
+    /// default integrator gets that of the fidelity `game` with [`Contact`] or [`Torsion`], one for
+    /// which the fidelity `engineering` was chosen [`Integrator::COUPLED`].
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a number out of range, [`Error::MissingForEffect`] for an effect
@@ -30,10 +30,11 @@ impl Cable {
     /// [`Error::EmptyRestPiece`] for a piece of a rest shape that covers no element,
     /// [`Error::WrongCount`] for samples of a flow that are not one per node,
     /// [`Error::ExplicitDamping`] for damping with an explicit integrator, [`Error::ContactMethod`]
-    /// for contact with another method than `discrete-gradient`. The cable is then as before.
+    /// for contact with another method than `discrete-gradient`. [`Error::TorsionPlace`]
+    /// for torsion with another one. The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         let mut integrator = self.integrator();
-        if effects.contact.is_some() && self.default_integrator {
+        if (effects.contact.is_some() || effects.torsion.is_some()) && self.default_integrator {
             integrator = self.integrator_for(Fidelity::Game);
         } else if effects.contact.is_some() && integrator == Integrator::default() {
             integrator = Integrator::COUPLED;

@@ -1,6 +1,8 @@
 //! Energies and momenta of a cable, summed over its elements.
 
 use super::Cable;
+use crate::effect::torsion::segment::Segment;
+use crate::state::SegmentTwist;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,9 @@ pub struct Energy {
     pub bending: f64,
     /// Gravity, less buoyancy.
     pub gravity: f64,
+    /// Torsion.
+    #[serde(default)]
+    pub torsion: f64,
     /// [Potentials](crate::Potential) of your own.
     pub potentials: f64,
 }
@@ -23,7 +28,7 @@ pub struct Energy {
 impl Energy {
     /// Returns the sum of all, in J.
     pub fn total(&self) -> f64 {
-        self.kinetic + self.axial + self.bending + self.gravity + self.potentials
+        self.kinetic + self.axial + self.bending + self.gravity + self.torsion + self.potentials
     }
 }
 
@@ -33,6 +38,7 @@ impl core::ops::AddAssign for Energy {
         self.axial += other.axial;
         self.bending += other.bending;
         self.gravity += other.gravity;
+        self.torsion += other.torsion;
         self.potentials += other.potentials;
     }
 }
@@ -49,7 +55,13 @@ pub struct Momentum {
 impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn energy_in_store(&self) -> f64 {
-        self.system.energy_in_store(&self.snapshot.state)
+        let store = self.system.energy_in_store(&self.snapshot.state);
+        if self.model.effects.torsion.is_none() || self.snapshot.state.memory.differences.is_empty() {
+            return store;
+        }
+        let share = 0.5 * self.snapshot.state.memory.differences.dissipation;
+        let of = |(segment, twist): (Segment, SegmentTwist)| share * segment.stiffness * twist.change.powi(2);
+        store + self.segments().into_iter().map(of).sum::<f64>()
     }
 
     /// Returns kinetic, strain and gravity energy of the present state.
@@ -67,7 +79,9 @@ impl Cable {
             + self.system.feed_kinetic(&self.model, time, q, v);
         let gravity = -self.system.loads.gravity_work(self.positions());
         let potentials = self.system.potentials.energy(&self.model, self.positions());
-        Energy { kinetic, axial, bending, gravity, potentials }
+        let torsion =
+            self.segments().iter().map(|(segment, twist)| 0.5 * segment.stiffness * twist.twist.powi(2)).sum();
+        Energy { kinetic, axial, bending, gravity, torsion, potentials }
     }
 
     /// Returns linear and angular momentum of the present state.

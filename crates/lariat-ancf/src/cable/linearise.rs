@@ -49,8 +49,10 @@ impl Cable {
 
     /// See [`Linearisation`](crate::coupling::Linearisation).
     pub(crate) fn evaluate(&mut self, force: &mut [f64]) {
-        let (mut equations, state) = self.equations();
-        equations.force(input(state, 0.0), force);
+        self.with_torsion(|cable| {
+            let (mut equations, state) = cable.equations();
+            equations.force(input(state, 0.0), force);
+        });
     }
 
     /// See [`Linearisation`](crate::coupling::Linearisation).
@@ -59,8 +61,10 @@ impl Cable {
     }
 
     fn evaluate_with_matrix(&mut self, dv_dq: f64, force: &mut [f64]) -> &BlockTridiagonal {
-        let (mut equations, state) = self.equations();
-        equations.force_and_matrix(input(state, dv_dq), 0.0, force);
+        self.with_torsion(|cable| {
+            let (mut equations, state) = cable.equations();
+            equations.force_and_matrix(input(state, dv_dq), 0.0, force);
+        });
         &self.system.step.matrix
     }
 
@@ -84,7 +88,7 @@ impl Cable {
         self.apply_supports(&mut m);
         let held = dense(&held);
         // held coordinates get a frequency above all others, and are dropped
-        let k = dense(&k) + &held * (held_at - 1.0);
+        let k = dense(&k) + self.torsion_stiffness() + &held * (held_at - 1.0);
         let dropped = held.trace().round() as usize;
         let Some(factor) = dense(&m).cholesky() else { return Vec::new() };
         let half = factor.l().solve_lower_triangular(&k).expect("a factor has no zero on its diagonal");

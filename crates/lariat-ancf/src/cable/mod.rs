@@ -39,6 +39,7 @@ mod snapshot;
 mod state;
 mod strut;
 mod supports;
+mod torsion;
 mod unstrained;
 mod workspace;
 
@@ -59,6 +60,7 @@ use nalgebra::Vector3;
 pub use reel::ReelReading;
 use serde::{Deserialize, Serialize};
 pub use snapshot::Snapshot;
+pub use torsion::TorsionReading;
 
 /// A cable of ANCF elements with its rule, integrator and state.
 ///
@@ -71,7 +73,8 @@ pub use snapshot::Snapshot;
 /// - "Linear elastic" is the St Venant-Kirchhoff law on the Green strain, N = EA (f^2 - 1)/2 f per
 ///   unstretched length: a good law within a few percent of stretch f = 1, too stiff in large
 ///   extension, too soft in large compression (its stiffness vanishes at f = 0.577).
-/// - No torsion: the section rotates freely about the axis, and no moment about it is transmitted.
+/// - Without [torsion](crate::Torsion) the section rotates freely about the axis, and no moment
+///   about it is transmitted.
 /// - [Contact](crate::contact) with obstacles, fixed or moving as prescribed, and with itself.
 /// - The unstretched length is constant, but for [`cut`](Self::cut) and a [reel](Self::add_reel).
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -33,6 +33,14 @@ impl Cable {
     /// # Errors
     /// [`Error::StepFailed`] if the present state has no finite acceleration.
     pub fn reactions(&mut self) -> Result<Vec<Reaction>, Error> {
+        let mut reactions = self.with_torsion(Cable::reactions_of_forces)?;
+        if self.model.effects.torsion.is_some() {
+            reactions.iter_mut().for_each(|reaction| reaction.moment -= self.torsion_moment(reaction.node));
+        }
+        Ok(reactions)
+    }
+
+    fn reactions_of_forces(&mut self) -> Result<Vec<Reaction>, Error> {
         let n = self.positions().len();
         self.refresh_memory();
         let mut acceleration = self.snapshot.state.memory.acceleration.clone();
@@ -65,7 +73,11 @@ impl Cable {
 
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
-        self.with_workspace(|cable| cable.pull_in_workspace(node))
+        let (force, moment) = self.with_torsion(|cable| cable.with_workspace(|cable| cable.pull_in_workspace(node)));
+        if self.model.effects.torsion.is_none() {
+            return (force, moment);
+        }
+        (force, moment + self.torsion_moment(node))
     }
 
     fn pull_in_workspace(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {

@@ -75,9 +75,11 @@ impl Cable {
             given.iter().try_for_each(|&x| require(each, x, true, "a number")).map_err(|e| e.of_cable(self.name()))?;
         }
         let moved = self.snapshot.state.q != positions;
+        let before = moved.then(|| self.snapshot.state.q.clone());
         self.snapshot.state.q.copy_from_slice(positions);
         self.snapshot.state.v.copy_from_slice(velocities);
-        if moved {
+        if let Some(before) = before {
+            self.follow_twist(&before);
             self.disturb()
         } else {
             self.disturb_motion()
@@ -170,6 +172,9 @@ impl Cable {
                 _ => None,
             };
             support.position.iter_mut().chain(slope).for_each(|motion| motion.start += later);
+        }
+        if let Some(torsion) = &mut self.model.effects.torsion {
+            torsion.delay(later);
         }
         self.snapshot.state.time = time;
         self.sync_reel();

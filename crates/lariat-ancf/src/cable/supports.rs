@@ -36,7 +36,9 @@ impl Cable {
             return Err(self.step_failed(self.time(), 0.0, failure));
         }
         if before.slope != support.slope {
+            let before = self.snapshot.state.q.clone();
             support.turn(&mut self.snapshot.state.q[6 * node + 3..6 * node + 6]);
+            self.follow_twist(&before);
         }
         self.revise();
         Ok(())
@@ -92,6 +94,8 @@ impl Cable {
 
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn is_held_still(&self) -> bool {
-        self.model.supports.iter().all(|(_, support)| support.is_still()) && self.is_reel_still()
+        self.model.supports.iter().all(|(_, support)| support.is_still())
+            && self.is_reel_still()
+            && self.is_spin_still()
     }
 }

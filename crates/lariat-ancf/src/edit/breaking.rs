@@ -128,7 +128,7 @@ impl Cable {
             tension,
             strain,
             time: self.time(),
-            strain_energy: energy.axial + energy.bending,
+            strain_energy: energy.axial + energy.bending + energy.torsion,
             inserted_energy: self.inserted_energy() - inserted,
         };
         Ok((rest, told(cut)))

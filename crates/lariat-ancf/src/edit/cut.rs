@@ -16,7 +16,7 @@ use crate::at::At;
 use crate::cable::{Cable, Snapshot};
 use crate::effect::Cut;
 use crate::error::Error;
-use crate::state::{Memory, State};
+use crate::state::{Memory, SegmentTwist, State};
 use crate::strength::LoadRecord;
 
 impl Cable {
@@ -57,19 +57,30 @@ impl Cable {
         tail.force_densities = self.model.force_densities.behind(s);
         tail.potentials = head.potentials.cut(s);
         let state = &self.snapshot.state;
-        let part =
-            |q: &[f64], v: &[f64]| State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory: Memory::default() };
+        let twists = self.segments();
+        let part = |q: &[f64], v: &[f64], first: usize| {
+            let own = |twist: &SegmentTwist| {
+                let [from, to] = twist.nodes;
+                let nodes = [from.checked_sub(first)?, to - first];
+                (nodes[1] < q.len() / 6).then_some(SegmentTwist { nodes, ..*twist })
+            };
+            // a segment that is cut has lost a hold, and its twist
+            let torsion =
+                self.model.effects.torsion.map(|_| twists.iter().filter_map(|(_, twist)| own(twist)).collect());
+            let memory = Memory { torsion, ..Memory::default() };
+            State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory }
+        };
         let (end, begin) = (6 * node + 6, 6 * node);
         let [at_start, at_end] = self.snapshot.windings;
         let head_state = Snapshot {
-            state: part(&state.q[..end], &state.v[..end]),
+            state: part(&state.q[..end], &state.v[..end], 0),
             windings: [at_start, None],
             load: LoadRecord::default(),
             ..self.snapshot.clone()
         };
         let windings = [None, at_end];
         let tail_state =
-            Snapshot { state: part(&state.q[begin..], &state.v[begin..]), windings, ..Snapshot::default() };
+            Snapshot { state: part(&state.q[begin..], &state.v[begin..], node), windings, ..Snapshot::default() };
         let mut tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         tail.set_watched(self.is_watched());
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;

@@ -30,6 +30,9 @@ impl Cable {
         model.check_effects().map_err(|e| e.of_cable(self.name()))?;
         check_integrator(&model, &integrator.method)?;
         self.rebuild(model)?;
+        if self.model.effects.torsion.is_none() {
+            self.snapshot.state.memory.torsion = None;
+        }
         self.integrator = integrator;
         self.revise();
         Ok(())

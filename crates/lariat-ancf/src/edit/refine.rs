@@ -85,6 +85,10 @@ impl Cable {
         // contacts of the element that is split are found anew
         let number = |element: usize| (element != e).then_some(element + usize::from(element > e));
         renumber(&mut memory.contacts, |contact| contact, number);
+        // the twist of a segment is that of its material, whatever its elements
+        for held in memory.torsion.iter_mut().flatten().flat_map(|twist| &mut twist.nodes) {
+            *held += usize::from(*held >= node);
+        }
         if !memory.differences.is_empty() {
             cut(&mut memory.differences.velocity);
             cut(&mut memory.differences.displacement);

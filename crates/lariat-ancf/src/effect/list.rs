@@ -42,6 +42,8 @@ macro_rules! for_each_effect {
               summary: "Axial force against strain: `hooke`, `rope` or a curve; without it the Green law." }
             { field: damping, type: Damping, set: set_damping, key: "damping", summary: "Internal damping (Kelvin-Voigt)." }
             { field: drag, type: Drag, set: set_drag, key: "drag", summary: "Drag of a fluid or wind." }
+            { field: torsion, type: Torsion, set: set_torsion, key: "torsion",
+              summary: "Torsion: one torque between clamps that hold the spin." }
             { field: contact, type: Contact, set: set_contact, key: "contact",
               summary: "Contact and friction with what is around the cable." }
         }

@@ -14,6 +14,7 @@
 //! | [`line_load`] | force per length | a constant vector, once |
 //! | [`axial_law`] | force against strain other than the Green law | Gram numbers of the element |
 //! | [`rest_shape`] | stress-free stretch and curvature | Gram numbers of the element |
+//! | [`torsion`] | one torque between clamps that hold the spin | the change of the twist of each segment |
 //! | [`damping`] | Kelvin-Voigt damping | Gram numbers of the element |
 //! | [`contact`] | contact and friction with obstacles | material points of the centre line, in steps of the discrete gradient |
 //! | [`drag`], [`flow`] | drag of a fluid or wind, steady, by tables in place and time, or sampled from a function of yours | Gauss points of the element |
@@ -51,6 +52,7 @@ pub mod potential;
 pub mod rest_shape;
 pub mod rope_kind;
 pub(crate) mod tables;
+pub mod torsion;
 pub mod work;
 
 pub use axial_law::AxialLaw;
@@ -66,6 +68,7 @@ pub use list::{EffectCounts, EffectWork, Effects};
 pub use potential::Potential;
 pub use rest_shape::{RestPiece, RestShape};
 pub use rope_kind::RopeKind;
+pub use torsion::{EndSpin, Torsion};
 
 use crate::error::{Error, Requirement};
 use crate::rule::{BendingRule, Rule};

@@ -185,6 +185,14 @@ pub enum Error {
         /// Name of the method.
         method: String,
     },
+    /// Torsion where it is not carried.
+    #[error("cable {cable:?}: torsion is not carried {by}")]
+    TorsionPlace {
+        /// Name of the cable.
+        cable: String,
+        /// By what it is not carried.
+        by: String,
+    },
     /// A piece of a rest shape that covers no element.
     #[error("cable {cable:?}: no element has its middle in the piece of the rest shape that begins at {from} m")]
     EmptyRestPiece {

@@ -30,6 +30,9 @@ pub(crate) fn advance(cable: &mut Cable, integrator: IntegratorRef<'_>, dt: f64)
     layout.begin(cables, &[], &[], dt);
     accounts.begin(cables, layout);
     step.begin(layout);
+    if cables[0].model.effects.torsion.is_some() {
+        step.cables[0].start.copy_from(&cables[0].before);
+    }
     let outcome =
         discrete_gradient::advance(&mut IslandStep { cables, layout, accounts, buffers: step }, integrator, dt);
     POOL.with_borrow_mut(|pool| pool.push(buffers));

@@ -81,6 +81,11 @@ impl Dense {
         (0..self.n).all(|k| self.factors[k * self.n + k] > 0.0)
     }
 
+    /// Returns the number of negative eigenvalues (Sylvester).
+    pub fn negative(&self) -> usize {
+        (0..self.n).filter(|&k| self.factors[k * self.n + k] < 0.0).count()
+    }
+
     /// Solves in place.
     pub fn solve(&mut self, rhs: &mut [f64]) {
         let n = self.n;

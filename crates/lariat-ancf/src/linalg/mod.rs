@@ -44,6 +44,7 @@ mod substitution;
 mod twisted;
 
 pub use block::{Block, BlockTridiagonal};
+pub(crate) use dense::Dense;
 pub use factorisation::Factorisation;
 pub use mass::{MassFactorisation, MassMatrix};
 pub use outcome::{Definiteness, Reason, SingularMatrix};

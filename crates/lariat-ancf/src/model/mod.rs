@@ -1,6 +1,7 @@
 //! What a cable is made of: plain data from which everything else is rebuilt.
 
 mod scale;
+mod segments;
 
 pub(crate) use scale::{LoadScale, largest_force};
 

@@ -44,3 +44,7 @@ pub(crate) const CRUMPLED: f64 = 1.0 / 16.0;
 /// Added to squares in ratios of changes. Derived: below all squares that count, and with a square
 /// that is a number, which derivatives of the ratio need.
 pub(crate) const TINY: f64 = 1e-140;
+
+/// z below which atan(z)/z is its series to the fourth power. Derived: the next term, z^6/7, is
+/// then below the rounding of `f64`.
+pub(crate) const SMALL_TURN: f64 = 2e-3;

@@ -3,10 +3,12 @@
 
 mod contact;
 mod differences;
+mod torsion;
 
 pub use contact::{ContactMemory, PairMemory};
 pub(crate) use contact::{Key, renumber};
 pub use differences::Differences;
+pub use torsion::SegmentTwist;
 
 use crate::error::{Error, require};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -52,6 +54,9 @@ pub struct Memory {
     /// Contacts with other cables and with itself, likewise.
     #[serde(default)]
     pub pairs: Vec<PairMemory>,
+    /// Twists of a cable with torsion, by segment; `None` until they are known.
+    #[serde(default)]
+    pub torsion: Option<Vec<SegmentTwist>>,
     /// Least axial damping time in s that the accelerations were computed with; see
     /// [`Cable::set_least_damping`](crate::coupling::Coupling::set_least_damping).
     #[serde(default)]
@@ -77,6 +82,7 @@ impl Default for Memory {
             lost: 0.0,
             contacts: Vec::new(),
             pairs: Vec::new(),
+            torsion: None,
             least_damping: 0.0,
         }
     }
@@ -112,6 +118,7 @@ impl State {
             lost,
             contacts,
             pairs,
+            torsion,
             least_damping,
         } = memory;
         self.time = *time;
@@ -129,6 +136,7 @@ impl State {
         self.memory.lost = *lost;
         self.memory.contacts.clone_from(contacts);
         self.memory.pairs.clone_from(pairs);
+        self.memory.torsion.clone_from(torsion);
         self.memory.least_damping = *least_damping;
     }
 
@@ -196,6 +204,7 @@ impl State {
             })
             .and_then(|()| self.memory.contacts.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
             .and_then(|()| self.memory.pairs.iter().try_for_each(|contact| contact.check(size / 6 - 1)))
+            .and_then(|()| self.memory.torsion.iter().flatten().try_for_each(SegmentTwist::check))
             .map_err(|error| error.of_cable(cable))
     }
 }

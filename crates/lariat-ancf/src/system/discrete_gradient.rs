@@ -94,6 +94,9 @@ impl Equations<'_> {
             rhs[i] += *h * external[i] - product[i];
         }
         rhs.iter_mut().zip(&b.pair_impulses).for_each(|(rhs, impulse)| *rhs += impulse);
+        if !matrix {
+            rhs.iter_mut().zip(&b.term_impulses).for_each(|(rhs, impulse)| *rhs += impulse);
+        }
         if matrix && !b.contact.is_empty() {
             self.diagnostics.effects.contact += b.contact.count();
             b.contact.linearise(&b.change, &mut b.rhs, &mut self.system.step.matrix);

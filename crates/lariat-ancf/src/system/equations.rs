@@ -87,6 +87,8 @@ impl Equations<'_> {
         diagnostics.load_evaluations += system.potentials.count();
         system.potentials.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
         system.static_contact.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
+        let to = mass_scale.map(|_| &mut *matrix);
+        diagnostics.effects.torsion += system.static_torsion.add(self.model, (q, scale), out, to);
         system.feeds.add(self.model, &input, out, mass_scale.map(|_| matrix));
     }
 
@@ -129,6 +131,7 @@ impl Equations<'_> {
         } else {
             step.factorisation.factor_to_solve(level, &step.matrix)?
         };
+        let kind = self.factor_torsion(kind)?;
         if !matches!(kind, Definiteness::PositiveDefinite) {
             self.diagnostics.indefinite_factorisations += 1;
         }
@@ -140,6 +143,7 @@ impl Equations<'_> {
         self.diagnostics.solves += 1;
         project_vector(self.model, rhs);
         self.system.step.factorisation.solve(self.system.level, rhs);
+        self.complete_by_torsion(rhs);
     }
 
     /// Returns the stage's Newton tolerance in m, at most `tolerance`, for the initial guess `z`

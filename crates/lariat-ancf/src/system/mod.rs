@@ -41,6 +41,8 @@ pub(crate) mod reel;
 mod rigid_motion;
 mod step_vectors;
 mod store;
+pub(crate) mod torsion;
+mod torsion_solve;
 mod vectors;
 
 pub(crate) use discrete_gradient::CableStep;
@@ -87,6 +89,8 @@ pub(crate) struct System {
     pub static_time: f64,
     /// Contact in statics.
     pub static_contact: StaticContact,
+    /// Torsion in statics.
+    pub static_torsion: torsion::StaticTorsion,
 }
 
 /// The matrix of an implicit step and its factors; empty between two steps.
@@ -149,6 +153,7 @@ impl System {
             feeds: Feeds::new(model),
             static_time: 0.0,
             static_contact: StaticContact::default(),
+            static_torsion: torsion::StaticTorsion::default(),
         })
     }
 

@@ -49,6 +49,8 @@ pub(crate) struct StepVectors {
     pub contact: ContactStep,
     /// Impulses of contacts with cables; empty without any.
     pub pair_impulses: Vec<f64>,
+    /// Impulses of terms that have evaluated them before; empty without any.
+    pub term_impulses: Vec<f64>,
     /// Where nothing holds the cable, or one point, the momenta when the step begins.
     pub before: Option<Before>,
     /// The one point at rest that is held, in the first cable.
@@ -81,6 +83,7 @@ impl StepVectors {
         }
         self.linearised.clear();
         self.pair_impulses.clear();
+        self.term_impulses.clear();
         self.taken.clear();
         self.landed.clear();
         self.velocity_change.clone_from(&self.velocity_before);

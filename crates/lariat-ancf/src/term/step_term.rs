@@ -43,12 +43,19 @@ pub(crate) enum Settled {
 /// does not say is that of a term that is absent. A pair of terms is a term, so a list of them is
 /// `(A, (B, (C, D)))`, dispatched statically.
 pub(crate) trait StepTerm<S: ?Sized> {
+    /// Begins a host step.
+    fn begin_host_step(_: &mut S) {}
+
     /// Begins a step: sets the first iterate.
     fn begin(_: &mut S, _: &StepStart) {}
 
     /// Evaluates at the present iterate what others need before they are
     /// [balanced](StepTerm::balance).
     fn evaluate(_: &mut S) {}
+
+    /// Adds its part of the residual and of the matrix where the equations are made linear at the
+    /// present iterate; those of the cables are there.
+    fn linearise(_: &mut S) {}
 
     /// Adds its part of the residual and of the energy law of the present iterate.
     fn balance(_: &mut S, _: &mut Balance) {}
@@ -76,6 +83,11 @@ pub(crate) trait StepTerm<S: ?Sized> {
 }
 
 impl<S: ?Sized, A: StepTerm<S>, B: StepTerm<S>> StepTerm<S> for (A, B) {
+    fn begin_host_step(system: &mut S) {
+        A::begin_host_step(system);
+        B::begin_host_step(system);
+    }
+
     fn begin(system: &mut S, step: &StepStart) {
         A::begin(system, step);
         B::begin(system, step);
@@ -84,6 +96,11 @@ impl<S: ?Sized, A: StepTerm<S>, B: StepTerm<S>> StepTerm<S> for (A, B) {
     fn evaluate(system: &mut S) {
         A::evaluate(system);
         B::evaluate(system);
+    }
+
+    fn linearise(system: &mut S) {
+        A::linearise(system);
+        B::linearise(system);
     }
 
     fn balance(system: &mut S, balance: &mut Balance) {

@@ -90,7 +90,7 @@ impl World {
         for cable in self.cables() {
             let (energy, effects, law) = (cable.energy(), cable.effect_work(), cable.energy_law());
             terms.kinetic += energy.kinetic;
-            terms.strain += energy.axial + energy.bending;
+            terms.strain += energy.axial + energy.bending + energy.torsion;
             terms.gravity += energy.gravity;
             let dissipated = dissipated(cable);
             terms.dissipated += dissipated;

@@ -9,8 +9,8 @@ use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, choice, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
-    AxialLaw, BendingRule, Buoyancy, Contact, Damping, Drag, Effects, GravityScale, LineLoad, LineLoads, RestPiece,
-    RestShape, RopeKind, Rule, Section, for_each_effect,
+    AxialLaw, BendingRule, Buoyancy, Contact, Damping, Drag, Effects, EndSpin, GravityScale, LineLoad, LineLoads,
+    RestPiece, RestShape, RopeKind, Rule, Section, Torsion, for_each_effect,
 };
 use toml::Value;
 
@@ -278,6 +278,80 @@ impl SceneEffect for LineLoads {
             if load.to <= load.from || load.to > cable.length * (1.0 + 1e-12) {
                 return Err(doc.error(&at.key("to"), Problem::OutOfRange(load.to)));
             }
+        }
+        Ok(())
+    }
+}
+
+table! {
+    /// Torsion of an isotropic cable: one torque between two clamps that hold the spin; a ball holds none. By GJ, or by a Poisson number
+    /// for a solid round section or a round tube. It needs the integrator `discrete-gradient`, and no reel.
+    struct TorsionTable("[cable.torsion]") {
+        /// Torsional stiffness GJ.
+        stiffness: Option<f64> = ("by `poisson`"), Kind::Number(POSITIVE), "N m^2";
+        /// Poisson number nu, up to 0.5, instead of `stiffness`: GJ = EI/(1 + nu).
+        poisson: Option<f64> = ("none"), Kind::Number(NOT_NEGATIVE);
+        /// Turns by which the cable is twisted as it is built, right-handed positive.
+        initial_twist: f64 = 0.0, Kind::Number(ANY);
+        /// Whether a clamp at the start holds the spin, does not, or turns it by a motor.
+        start: Value = ("\"held\""), END_SPIN;
+        /// The same of a clamp at the end.
+        end: Value = ("\"held\""), END_SPIN;
+    }
+    choose Choose::AtLeastOne(&["stiffness", "poisson"]);
+}
+
+/// How an end holds its spin.
+const END_SPIN: Kind = Kind::Either(&[Kind::Choice(|| vec!["held", "swivel"]), Kind::Table(&MotorTable::TABLE)]);
+
+table! {
+    /// A motor that turns the spin of a clamped end at a constant rate.
+    struct MotorTable("[cable.torsion.start] and [cable.torsion.end]") {
+        /// Turns per second, right-handed about the axis in the direction of arc length.
+        rate: f64 = required, Kind::Number(ANY), "1/s";
+        /// Time at which it starts.
+        from: f64 = 0.0, Kind::Number(ANY), "s";
+        /// Time at which it stops and holds.
+        until: Option<f64> = ("never"), Kind::Number(ANY), "s";
+    }
+}
+
+impl SceneEffect for Torsion {
+    const KIND: Kind = Kind::Table(&TorsionTable::TABLE);
+    const WITHOUT: &'static str = "off";
+
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
+        let table: TorsionTable = doc.typed(at, value.clone())?;
+        if table.stiffness.is_some() && table.poisson.is_some() {
+            return Err(doc.conflict(&at.key("poisson"), "both a stiffness and a Poisson number are given"));
+        }
+        let mut torsion = match (table.stiffness, table.poisson) {
+            (None, Some(poisson)) => Torsion::round(cable.section.bending_stiffness, poisson)
+                .map_err(|error| doc.conflict(&at.key("poisson"), error.to_string()))?,
+            (stiffness, _) => Torsion::new(stiffness.unwrap_or_default()),
+        };
+        torsion.initial_twist = table.initial_twist;
+        for (key, written, spin) in [("start", table.start, &mut torsion.start), ("end", table.end, &mut torsion.end)] {
+            *spin = match written {
+                Value::String(text) if text == "swivel" => EndSpin::Swivel,
+                motor @ Value::Table(_) => {
+                    let MotorTable { rate, from, until } = doc.typed(&at.key(key), motor)?;
+                    let until = until.unwrap_or(f64::MAX);
+                    if until < from {
+                        return Err(doc.conflict(&at.key(key), "the motor stops before it starts"));
+                    }
+                    EndSpin::Motor { rate, from, until }
+                }
+                _ => EndSpin::Held,
+            };
+        }
+        *value = Value::try_from(torsion).map_err(|error| doc.conflict(at, error.to_string()))?;
+        Ok(())
+    }
+
+    fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
+        if cable.rule.bending == BendingRule::None {
+            return Err(doc.conflict(at, format!("rule {} has no bending, which a twisted cable needs", cable.rule)));
         }
         Ok(())
     }

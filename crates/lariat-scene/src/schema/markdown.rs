@@ -46,7 +46,13 @@ const HEAD: &str = "| key | accepted | unit | default | meaning |\n|---|---|---|
 /// Returns a table and all tables below it as Markdown, each with its heading, its purpose and its keys.
 pub fn tables(root: &'static Table) -> String {
     let mut text = String::new();
+    let mut written = Vec::new();
     for table in root.all() {
+        // two keys may have the same table
+        if written.contains(&(table.header, table.about)) {
+            continue;
+        }
+        written.push((table.header, table.about));
         // writing to a String cannot fail
         let _ = writeln!(text, "{}", one(table));
     }

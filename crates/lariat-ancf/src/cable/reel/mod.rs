@@ -283,6 +283,7 @@ impl Model {
             ),
             ("a rest shape that is curved or in pieces", self.effects.rest_shape.as_ref().is_some_and(curved)),
             ("an axial law", self.effects.axial_law.is_some()),
+            ("torsion", self.effects.torsion.is_some()),
             ("forces per length of your own", !self.force_densities.is_empty()),
         ];
         match refused.iter().find(|(_, is_there)| *is_there) {

@@ -40,6 +40,8 @@ pub(in crate::island) struct HoldStep {
     driven: Vector3<f64>,
     /// Impulse of the cable on the body over the iterate.
     pub impulse: Vector3<f64>,
+    /// Angular impulses of the torsion behind and before a slope over the iterate.
+    pub twists: [Vector3<f64>; 2],
 }
 
 impl HoldStep {
@@ -47,7 +49,19 @@ impl HoldStep {
     pub fn new(hold: &Hold, offset: usize, body: usize) -> Self {
         let (arm, along, driven, impulse) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
         let Hold { pin, node, at, slope } = *hold;
-        HoldStep { at: at - offset, node, pin, body, slope, arm, along, stretch: 0.0, driven, impulse }
+        HoldStep {
+            at: at - offset,
+            node,
+            pin,
+            body,
+            slope,
+            arm,
+            along,
+            stretch: 0.0,
+            driven,
+            impulse,
+            twists: [Vector3::zeros(); 2],
+        }
     }
 
     /// Sets the held coordinates of the iterate to where the body is.
@@ -127,6 +141,10 @@ impl HoldStep {
     pub fn action(&self, body: &BodyStep, h: f64) -> (Vector3<f64>, Vector3<f64>, f64) {
         let mean = self.impulse / h;
         let power = mean.dot(&self.velocity(body));
+        if self.twists != [Vector3::zeros(); 2] {
+            let twist = (self.twists[0] + self.twists[1]) / h;
+            return (Vector3::zeros(), self.arm.cross(&mean) + twist, power + twist.dot(&body.mean[1]));
+        }
         if self.slope { (Vector3::zeros(), self.arm.cross(&mean), power) } else { (mean, Vector3::zeros(), power) }
     }
 }

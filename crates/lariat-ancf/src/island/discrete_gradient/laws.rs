@@ -105,7 +105,7 @@ impl IslandStep<'_, '_> {
     }
 
     /// Solves the linear equations for the right-hand sides that `fill` makes of zeros, in place.
-    fn solve_columns(
+    pub(super) fn solve_columns(
         &mut self,
         columns: &mut [Vec<f64>],
         rows: &mut Vec<f64>,

@@ -23,6 +23,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             equations.note_load(state.time, &state.q, &state.v);
         }
         self.cables[0].step_buffers.after = None;
+        Terms::begin_host_step(self);
     }
 
     fn predict(&mut self, step: &StepStart) {
@@ -36,7 +37,9 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
             self.linearise_pairs();
             self.linearise()?;
             let first = &self.cables[0].step_buffers;
-            self.factor_bodies((first.h, first.leg))?;
+            let step = (first.h, first.leg);
+            self.factor_bodies(step)?;
+            self.border_torsion(step)?;
             self.linearise_laws();
         }
         self.add_increment(share)?;

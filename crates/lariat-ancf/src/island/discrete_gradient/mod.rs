@@ -37,6 +37,8 @@ mod rigid;
 mod rounds;
 mod solve;
 mod terms;
+mod torsion;
+mod twists;
 
 pub(super) use host_step::HostStep;
 
@@ -63,6 +65,8 @@ pub(super) struct StepBuffers {
     coupled: Vec<CoupledInertia>,
     pub cables: Vec<CableBuffers>,
     matrix: Bordered,
+    /// Torsion of the cables.
+    torsions: twists::Torsions,
     /// Rows of the bodies, then their increments.
     rows: Vec<f64>,
     /// The bodies as the contacts see them.

@@ -5,6 +5,7 @@ use super::super::bordered::Lever;
 use super::super::condense::Columns;
 use super::coupled::complete_rows;
 use super::reels::Reels;
+use super::terms::Terms;
 use super::{CableBuffers, IslandStep, StepBuffers};
 use crate::contact::Border;
 use crate::effect::EffectWork;
@@ -20,10 +21,14 @@ impl IslandStep<'_, '_> {
     pub(super) fn linearise(&mut self) -> Result<(), StepFailure> {
         self.buffers.rows.fill(0.0);
         Reels::evaluate(self);
-        let StepBuffers { bodies, coupled, cables: own, matrix, rows, pairs, .. } = &mut *self.buffers;
-        for (strand, ((cable, own), part)) in self.cables.iter_mut().zip(own).zip(&self.layout.parts).enumerate() {
+        for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
             equations.step_residual(state, buffers, true, &mut EffectWork::default());
+        }
+        Terms::linearise(self);
+        let StepBuffers { bodies, coupled, cables: own, matrix, rows, pairs, .. } = &mut *self.buffers;
+        for (strand, ((cable, own), part)) in self.cables.iter_mut().zip(own).zip(&self.layout.parts).enumerate() {
+            let CableStep { mut equations, buffers, .. } = cable.step_parts();
             own.pass_impulses(&buffers.rhs, rows);
             buffers.contact.pass_impulses(true, rows);
             let borders = buffers.contact.borders();
@@ -64,6 +69,12 @@ impl IslandStep<'_, '_> {
     /// Solves the linear equations in place: the residuals of cables and the rows of bodies become
     /// their increments.
     pub(super) fn solve(&mut self) {
+        self.solve_bordered();
+        self.complete_by_torsion();
+    }
+
+    /// Solves them without what [torsion](super::torsion) couples along a cable.
+    fn solve_bordered(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         rows.resize(matrix.rows(), 0.0);
         for (c, (cable, own)) in self.cables.iter_mut().zip(own.iter()).enumerate() {

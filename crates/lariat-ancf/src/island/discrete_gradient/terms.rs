@@ -5,7 +5,8 @@ use super::cables::Cables;
 use super::contacts::Contacts;
 use super::pins::Pins;
 use super::reels::Reels;
+use super::torsion::Torsion;
 
 /// All terms, in the order in which they begin a step and are balanced; they are accepted in
 /// reverse. A [term](crate::term) that is not in the list does not exist.
-pub(super) type Terms = (Cables, (Bodies, (Reels, (Pins, Contacts))));
+pub(super) type Terms = (Cables, (Torsion, (Bodies, (Reels, (Pins, Contacts)))));

@@ -21,7 +21,8 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`]
-    /// for a cable with [attached](crate::coupling::Coupling::attach) nodes.
+    /// for a cable with [attached](crate::coupling::Coupling::attach) nodes,
+    /// [`Error::TorsionPlace`] for one that is twisted in a flow.
     pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
         self.equilibrium_with(EquilibriumOptions::default())
     }
@@ -37,6 +38,10 @@ impl Cable {
         };
         self.check_complete()?;
         require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
+        if self.system.forces.drive() && !self.segments().is_empty() {
+            let by = "by an equilibrium in a flow, or under a force of your own".to_string();
+            return Err(Error::TorsionPlace { cable: self.name().to_string(), by });
+        }
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
@@ -85,6 +90,7 @@ impl Cable {
             support.prescribe(time, &mut q[6 * node..6 * node + 6], &mut [0.0; 6]);
         }
         self.system.static_contact.begin(model, time, &q);
+        self.system.static_torsion.begin(&self.model, &mut self.snapshot.state);
     }
 
     /// Ends it, and returns the contacts of the present shape.
@@ -92,6 +98,7 @@ impl Cable {
         let mut contacts = Vec::new();
         self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
         self.system.static_contact.end();
+        self.system.static_torsion.end(&self.model, &mut self.snapshot.state);
         contacts
     }
 

@@ -64,6 +64,10 @@ pub fn equilibrium(
         let reason = "its end is at a sheave or on a drum, whose equilibrium is not computed";
         return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
     }
+    if let Some(cable) = cables.iter().find(|cable| !cable.segments().is_empty()) {
+        let by = "by an equilibrium of cables and bodies together".to_string();
+        return Err(Error::TorsionPlace { cable: cable.name().to_string(), by });
+    }
     let kept = |cable: &&mut Cable| (cable.snapshot.clone(), cable.model.loads.clone(), cable.model.supports.clone());
     let before: Vec<_> = cables.iter().map(kept).collect();
     for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
@@ -98,6 +102,7 @@ pub fn equilibrium(
         cable.model.loads = loads;
         if outcome.is_err() {
             cable.system.static_contact.end();
+            cable.system.static_torsion.abandon();
             (cable.snapshot, cable.model.supports) = (snapshot, supports);
             cable.sync_reel();
         }

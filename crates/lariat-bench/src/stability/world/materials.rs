@@ -42,5 +42,6 @@ pub fn all_effects(weight_per_length: f64) -> Effects {
         gravity_scale: Some(GravityScale(0.9)),
         axial_law: None,
         contact: None,
+        torsion: None,
     }
 }

@@ -1,0 +1,108 @@
+//! Torque and twist of a cable with torsion.
+
+use super::Cable;
+use crate::effect::torsion::segment::Segment;
+use crate::state::SegmentTwist;
+use crate::system::project_vector;
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// Torsion of a cable between two neighbouring nodes that hold its spin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TorsionReading {
+    /// The two nodes, ascending.
+    pub nodes: [usize; 2],
+    /// Twist of the material in rad, right-handed positive, whole turns included.
+    pub twist: f64,
+    /// Torque in N m about the axis in the direction of arc length, on what holds the first node;
+    /// its opposite acts on what holds the last.
+    pub torque: f64,
+    /// Twist per length in rad/m of unstretched cable.
+    pub twist_rate: f64,
+}
+
+impl Cable {
+    /// Returns torque and twist of each segment between nodes that hold the spin; none without
+    /// [torsion](crate::Torsion), or where fewer than two clamps hold it.
+    pub fn torsion(&self) -> Vec<TorsionReading> {
+        let stiffness = self.model.effects.torsion.as_ref().map_or(f64::NAN, |torsion| torsion.stiffness);
+        let reading = |(segment, twist): (Segment, SegmentTwist)| {
+            let torque = segment.stiffness * twist.twist;
+            TorsionReading { nodes: segment.nodes, twist: twist.twist, torque, twist_rate: torque / stiffness }
+        };
+        self.segments().into_iter().map(reading).collect()
+    }
+
+    /// Returns the segments with their twists.
+    pub(crate) fn segments(&self) -> Vec<(Segment, SegmentTwist)> {
+        let mut segments = Vec::new();
+        self.model.find_segments(&mut segments);
+        if segments.is_empty() {
+            return Vec::new();
+        }
+        let mut twists = self.snapshot.state.memory.torsion.clone();
+        self.model.follow_holds(&segments, &mut twists);
+        segments.into_iter().zip(twists.into_iter().flatten()).collect()
+    }
+
+    /// Returns whether no motor turns from now on.
+    pub(crate) fn is_spin_still(&self) -> bool {
+        self.model.effects.torsion.is_none_or(|torsion| torsion.is_still(self.time()))
+    }
+
+    /// Calls `f` with forces as functions of the coordinates that have torsion in them.
+    pub(crate) fn with_torsion<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+        if self.model.effects.torsion.is_none() {
+            return f(self);
+        }
+        let known = self.snapshot.state.memory.torsion.clone();
+        self.system.static_torsion.begin(&self.model, &mut self.snapshot.state);
+        self.snapshot.state.memory.torsion = known;
+        let outcome = f(self);
+        self.system.static_torsion.abandon();
+        outcome
+    }
+
+    /// Returns the part of the stiffness that couples all coordinates of a segment, supports in
+    /// place.
+    pub(crate) fn torsion_stiffness(&self) -> DMatrix<f64> {
+        let size = self.positions().len();
+        let mut stiffness = DMatrix::zeros(size, size);
+        let mut gradient = Vec::new();
+        for (segment, _) in self.segments() {
+            segment.gradient(&self.model.elements, self.positions(), &mut gradient);
+            let mut column = DVector::zeros(size);
+            column.as_mut_slice()[segment.range()].copy_from_slice(&gradient);
+            project_vector(&self.model, column.as_mut_slice());
+            stiffness += &column * column.transpose() * segment.stiffness;
+        }
+        stiffness
+    }
+
+    /// Returns the torque in N m of torsion on what holds a node.
+    pub(crate) fn torsion_moment(&self, node: usize) -> Vector3<f64> {
+        let own = |(segment, twist): (Segment, SegmentTwist)| {
+            let side = segment.nodes.iter().position(|held| *held == node)?;
+            Some([1.0, -1.0][side] * segment.stiffness * twist.twist)
+        };
+        let torque: f64 = self.segments().into_iter().filter_map(own).sum();
+        let slope = Vector3::from_column_slice(&self.positions()[6 * node + 3..6 * node + 6]);
+        slope.try_normalize(0.0).map_or_else(Vector3::zeros, |axis| axis * torque)
+    }
+
+    /// Advances the twists by a change of the coordinates from `before` that no step made.
+    pub(crate) fn follow_twist(&mut self, before: &[f64]) {
+        let (mut segments, mut secant) = (Vec::new(), Vec::new());
+        self.model.find_segments(&mut segments);
+        // as built it is not twisted, whatever its shape
+        if segments.is_empty() || self.snapshot.state.memory.torsion.is_none() {
+            return;
+        }
+        let state = &mut self.snapshot.state;
+        self.model.follow_holds(&segments, &mut state.memory.torsion);
+        let step: Vec<f64> = state.q.iter().zip(before).map(|(now, then)| now - then).collect();
+        for (segment, twist) in segments.iter().zip(state.memory.torsion.iter_mut().flatten()) {
+            twist.twist += segment.change(&self.model.elements, before, &step, &mut secant)[0];
+        }
+    }
+}

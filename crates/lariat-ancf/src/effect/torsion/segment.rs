@@ -1,0 +1,167 @@
+//! The segments of a cable between holds of its spin.
+//!
+//! # Equation
+//!
+//! ```text
+//! K = 1/sum(l_e/GJ)        Phi1 = Phi0 + sum_e D Phi_e + D theta_last - D theta_first
+//! ```
+//!
+//! # Validity
+//!
+//! The sum of increments is the angle between the directors of both holds modulo a full turn to
+//! rounding, however long the run: nothing drifts.
+
+use super::Torsion;
+use super::element::{self, COORDINATES, TwistChange, twist_change, twist_hessian};
+use crate::linalg::BlockTridiagonal;
+use crate::section::Element;
+use crate::state::SegmentTwist;
+
+/// The elements between two neighbouring holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Segment {
+    /// Nodes of the holds, ascending.
+    pub nodes: [usize; 2],
+    /// K in N m.
+    pub stiffness: f64,
+}
+
+impl Segment {
+    /// Finds those of a cable between the nodes that hold its spin, ascending.
+    pub fn find(torsion: &Torsion, elements: &[Element], holds: impl Iterator<Item = usize>, out: &mut Vec<Segment>) {
+        let mut before = None;
+        for node in holds {
+            if let Some(first) = before.replace(node) {
+                let length: f64 = elements[first..node].iter().map(|element| element.length).sum();
+                out.push(Segment { nodes: [first, node], stiffness: torsion.stiffness / length });
+            }
+        }
+    }
+
+    /// Returns the numbers of the elements.
+    fn elements(&self) -> core::ops::Range<usize> {
+        self.nodes[0]..self.nodes[1]
+    }
+
+    /// Returns the number of elements.
+    pub fn count(&self) -> u64 {
+        self.elements().len() as u64
+    }
+
+    /// Returns the coordinates of its nodes within those of the cable.
+    pub fn range(&self) -> core::ops::Range<usize> {
+        6 * self.nodes[0]..6 * self.nodes[1] + 6
+    }
+
+    /// Calls `f` with each element, the range of its coordinates in the cable, and that in the
+    /// segment.
+    fn for_each(&self, mut f: impl FnMut(usize, core::ops::Range<usize>, core::ops::Range<usize>)) {
+        for e in self.elements() {
+            let own = 6 * (e - self.nodes[0]);
+            f(e, 6 * e..6 * e + COORDINATES, own..own + COORDINATES);
+        }
+    }
+
+    /// Returns the twist that the curve adds over a change of the coordinates, and sets the secant.
+    pub fn change(&self, elements: &[Element], q: &[f64], step: &[f64], secant: &mut Vec<f64>) -> [f64; 2] {
+        secant.clear();
+        secant.resize(self.range().len(), 0.0);
+        let (mut sum, mut slipped, mut part) = (0.0, 0, [0.0; COORDINATES]);
+        self.for_each(|e, at, own| {
+            let TwistChange { angle, slips } = twist_change(&q[at.clone()], &step[at], elements[e].length, &mut part);
+            sum += angle;
+            slipped += slips;
+            secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
+        });
+        [sum, slipped as f64]
+    }
+
+    /// Sets the gradient of the twist of the curve.
+    pub fn gradient(&self, elements: &[Element], q: &[f64], gradient: &mut Vec<f64>) {
+        gradient.clear();
+        gradient.resize(self.range().len(), 0.0);
+        let mut part = [0.0; COORDINATES];
+        self.for_each(|e, at, own| {
+            element::twist_gradient(&q[at], elements[e].length, &mut part);
+            gradient[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
+        });
+    }
+
+    /// Adds a factor times the Hessian of the twist at coordinates `q(i)` to a matrix.
+    pub fn add_hessian(
+        &self,
+        elements: &[Element],
+        q: impl Fn(usize) -> f64,
+        factor: f64,
+        matrix: &mut BlockTridiagonal,
+    ) {
+        if factor == 0.0 {
+            return;
+        }
+        let mut local = [0.0; COORDINATES];
+        self.for_each(|e, at, _| {
+            local.iter_mut().zip(at).for_each(|(out, i)| *out = q(i));
+            let blocks = twist_hessian(&local, elements[e].length, factor);
+            for column in 0..2 {
+                for row in 0..2 {
+                    for x in 0..3 {
+                        for y in 0..3 {
+                            let (r, c) = (3 * row + y, 3 * column + x);
+                            let own = |first: usize| {
+                                let (a, b) = (first + row, first + column);
+                                if a >= b { blocks[a][b][(y, x)] } else { blocks[b][a][(x, y)] }
+                            };
+                            matrix.diag[e].0[c][r] += own(0);
+                            matrix.diag[e + 1].0[c][r] += own(2);
+                            matrix.lower[e].0[c][r] += blocks[2 + row][column][(y, x)];
+                        }
+                    }
+                }
+            }
+        });
+    }
+
+    /// Returns what is left of the twists of a state for this segment: of segments that it covers
+    /// in part, their share by length.
+    fn left_of(&self, elements: &[Element], state: &[SegmentTwist]) -> SegmentTwist {
+        let length = |from: usize, to: usize| elements[from..to.max(from)].iter().map(|e| e.length).sum::<f64>();
+        let mut own = SegmentTwist { nodes: self.nodes, ..SegmentTwist::default() };
+        for other in state.iter().filter(|other| other.nodes[1] < elements.len() + 1) {
+            let both = [self.nodes[0].max(other.nodes[0]), self.nodes[1].min(other.nodes[1])];
+            if both == other.nodes {
+                own.twist += other.twist;
+            } else if both[1] > both[0] {
+                own.twist += other.twist * length(both[0], both[1]) / length(other.nodes[0], other.nodes[1]);
+            }
+            for side in (0..2).filter(|&side| other.nodes[side] == self.nodes[side]) {
+                own.attitudes[side] = other.attitudes[side];
+            }
+        }
+        own
+    }
+}
+
+/// Makes the twists of a state those of its present segments. As built, they are the initial twist;
+/// a new hold holds the twist that is there, and what lost a hold has lost its twist.
+pub(crate) fn follow_holds(
+    torsion: &Torsion,
+    elements: &[Element],
+    segments: &[Segment],
+    state: &mut Option<Vec<SegmentTwist>>,
+) {
+    let is_right = |twists: &[SegmentTwist]| {
+        twists.len() == segments.len() && twists.iter().zip(segments).all(|(a, b)| a.nodes == b.nodes)
+    };
+    match state {
+        Some(twists) if is_right(twists) => {}
+        Some(twists) => *twists = segments.iter().map(|segment| segment.left_of(elements, twists)).collect(),
+        None => {
+            let all: f64 = segments.iter().map(|segment| segment.stiffness.recip()).sum();
+            let own = |segment: &Segment| {
+                let twist = core::f64::consts::TAU * torsion.initial_twist / (segment.stiffness * all);
+                SegmentTwist { nodes: segment.nodes, twist, ..SegmentTwist::default() }
+            };
+            *state = Some(segments.iter().map(own).collect());
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! The twist of elements against identities and differences.
+
+use super::element::{COORDINATES, twist_change, twist_gradient, twist_hessian};
+use super::pair::change;
+use nalgebra::{UnitQuaternion, Vector3};
+
+const LENGTH: f64 = 0.7;
+
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// A straight element with slopes off by `size`, positions by a quarter of it in lengths.
+fn element(size: f64, next: &mut impl FnMut() -> f64) -> [f64; COORDINATES] {
+    core::array::from_fn(|i| match i {
+        0..3 => 0.25 * size * LENGTH * next(),
+        6..9 => LENGTH * (f64::from(u8::from(i == 6)) + 0.25 * size * next()),
+        _ => f64::from(u8::from(i % 6 == 3)) + size * next(),
+    })
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn vector(x: &[f64]) -> Vector3<f64> {
+    Vector3::new(x[0], x[1], x[2])
+}
+
+/// The angle in rad that is left of the twist of an element when directors are carried along it.
+fn determinant_share(q: &[f64]) -> f64 {
+    let (x, y) = (vector(&q[3..]), vector(&q[9..]));
+    let m = (vector(&q[6..]) - vector(q)) * (1.5 / LENGTH) - (x + y) * 0.25;
+    let [x, m, y] = [x, m, y].map(|d| d.normalize());
+    x.dot(&m.cross(&y)) / 6.0
+}
+
+/// Carries a director by the smallest rotation of a direction.
+fn carry(director: Vector3<f64>, from: Vector3<f64>, to: Vector3<f64>) -> Vector3<f64> {
+    UnitQuaternion::rotation_between(&from, &to).unwrap() * director
+}
+
+/// The secant times the change is the change of the twist, for any step, crumpled elements and
+/// slips included.
+///
+/// *Source.* The identity on which the energy law rests.
+#[test]
+fn the_secant_is_exact() {
+    let mut next = random(3);
+    let mut slips = 0;
+    for size in [0.1, 0.4, 1.0, 3.0, 10.0] {
+        for _ in 0..500 {
+            let (q, step) = (element(size, &mut next), element(size, &mut next));
+            let step: Vec<f64> = step.iter().zip(&q).map(|(a, b)| a - b).collect();
+            let mut c = [0.0; COORDINATES];
+            let found = twist_change(&q, &step, LENGTH, &mut c);
+            slips += found.slips;
+            let scale: f64 = c.iter().zip(&step).map(|(c, d)| (c * d).abs()).sum();
+            assert!((dot(&c, &step) - found.angle).abs() <= 1e-14 * scale.max(1.0), "{size}: {found:?}");
+        }
+    }
+    assert!(slips > 100, "no step that turns too far was tried");
+}
+
+/// Gradient and Hessian are the derivatives of the change along straight lines.
+///
+/// *Source.* Central differences; a direction that is displaced along a line moves on a great
+/// circle, so the exact change has no holonomy of its own.
+#[test]
+fn gradient_and_hessian_are_derivatives_of_the_change() {
+    let mut next = random(5);
+    for size in [0.2, 0.5] {
+        for _ in 0..200 {
+            let (q, along): (_, [f64; COORDINATES]) = (element(size, &mut next), core::array::from_fn(|_| next()));
+            let by = |h: f64| {
+                let step: Vec<f64> = along.iter().map(|x| h * x).collect();
+                twist_change(&q, &step, LENGTH, &mut [0.0; COORDINATES]).angle
+            };
+            let mut g = [0.0; COORDINATES];
+            twist_gradient(&q, LENGTH, &mut g);
+            let h = 1e-4;
+            let first = (8.0 * (by(h) - by(-h)) - (by(2.0 * h) - by(-2.0 * h))) / (12.0 * h);
+            assert!((dot(&g, &along) - first).abs() < 1e-8 * (1.0 + first.abs()), "{} {first}", dot(&g, &along));
+            let blocks = twist_hessian(&q, LENGTH, 1.0);
+            let form: f64 = (0..4)
+                .flat_map(|a| (0..=a).map(move |b| (a, b)))
+                .map(|(a, b)| {
+                    let value = vector(&along[3 * a..]).dot(&(blocks[a][b] * vector(&along[3 * b..])));
+                    if a == b { value } else { 2.0 * value }
+                })
+                .sum();
+            let h = 1e-3;
+            let second = |h: f64| (by(h) + by(-h)) / (h * h);
+            let second = (4.0 * second(0.5 * h) - second(h)) / 3.0;
+            assert!((form - second).abs() < 1e-5 * (1.0 + second.abs()), "{form} {second}");
+        }
+    }
+}
+
+/// A rigid rotation of the element changes its twist by what its ends turn about themselves: sum q
+/// cross g = x - y. Turning everything changes no twist, and reversing the element keeps it.
+///
+/// *Source.* Frame indifference; a right-handed helix is right-handed from both ends.
+#[test]
+fn twist_is_frame_indifferent_and_has_no_direction() {
+    let mut next = random(7);
+    for _ in 0..200 {
+        let (q, other) = (element(0.4, &mut next), element(0.4, &mut next));
+        let mut g = [0.0; COORDINATES];
+        twist_gradient(&q, LENGTH, &mut g);
+        let moment: Vector3<f64> = (0..4).map(|k| vector(&q[3 * k..]).cross(&vector(&g[3 * k..]))).sum();
+        let ends = vector(&q[3..]).normalize() - vector(&q[9..]).normalize();
+        assert!((moment - ends).norm() < 1e-13, "{moment} {ends}");
+        let angle = |q: &[f64], to: &[f64]| {
+            let step: Vec<f64> = to.iter().zip(q).map(|(a, b)| a - b).collect();
+            twist_change(q, &step, LENGTH, &mut [0.0; COORDINATES]).angle
+        };
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(next(), next(), next()) * 3.0);
+        let turned = |q: &[f64]| q.chunks(3).flat_map(|x| <[f64; 3]>::from(turn * vector(x))).collect::<Vec<_>>();
+        let reversed = |q: &[f64]| {
+            let (position, slope) = (|k: usize| vector(&q[k..]), |k: usize| -vector(&q[k..]));
+            [position(6), slope(9), position(0), slope(3)].into_iter().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()
+        };
+        assert!((angle(&turned(&q), &turned(&other)) - angle(&q, &other)).abs() < 1e-13);
+        assert!((angle(&reversed(&q), &reversed(&other)) - angle(&q, &other)).abs() < 1e-13);
+    }
+}
+
+/// After 1000 random moves the sum of all increments is still the angle between the directors of
+/// both ends, modulo a full turn.
+///
+/// *Source.* Directors carried by smallest rotations, along the element and at its ends.
+#[test]
+fn twist_does_not_drift() {
+    let mut next = random(11);
+    let mut q = element(0.3, &mut next);
+    let middle =
+        |q: &[f64]| (vector(&q[6..]) - vector(q)) * (1.5 / LENGTH) - (vector(&q[3..]) + vector(&q[9..])) * 0.25;
+    let angle = |q: &[f64], first: Vector3<f64>, last: Vector3<f64>| {
+        let (x, y) = (vector(&q[3..]), vector(&q[9..]));
+        let along = carry(carry(first, x, middle(q)), middle(q), y);
+        along.cross(&last).dot(&y.normalize()).atan2(along.dot(&last)) - determinant_share(q)
+    };
+    let normal = |d: Vector3<f64>| d.cross(&Vector3::new(0.3, -0.2, 0.9)).normalize();
+    let (mut first, mut last) = (normal(vector(&q[3..])), normal(vector(&q[9..])));
+    let start = angle(&q, first, last);
+    let mut twist = 0.0;
+    for _ in 0..1000 {
+        let to = element(0.35, &mut next);
+        let step: Vec<f64> = to.iter().zip(&q).map(|(a, b)| a - b).collect();
+        let found = twist_change(&q, &step, LENGTH, &mut [0.0; COORDINATES]);
+        assert_eq!(found.slips, 0);
+        twist += found.angle;
+        first = carry(first, vector(&q[3..]), vector(&to[3..]));
+        last = carry(last, vector(&q[9..]), vector(&to[9..]));
+        q = to;
+    }
+    let off = (angle(&q, first, last) - start - twist).rem_euclid(std::f64::consts::TAU);
+    assert!(off.min(std::f64::consts::TAU - off) < 1e-12, "{off:e}");
+    // an octant of the sphere has the area pi/2
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    let octant = change([&x, &z], [&y, &z]).angle;
+    assert!((octant.abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{octant}");
+}

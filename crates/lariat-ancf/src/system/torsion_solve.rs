@@ -1,0 +1,54 @@
+//! Solving with what [torsion](super::torsion) adds to a factored step matrix.
+//!
+//! # Equation
+//!
+//! That of [`rank`](crate::effect::torsion::rank); the columns are those of the segments.
+
+use super::torsion::StaticTorsion;
+use super::{Equations, dot, project_vector};
+use crate::error::StepFailure;
+use crate::linalg::Definiteness;
+
+impl Equations<'_> {
+    /// Adds torsion to the factored step matrix; returns what that makes of a kind.
+    pub(super) fn factor_torsion(&mut self, kind: Definiteness) -> Result<Definiteness, StepFailure> {
+        if self.system.static_torsion.is_empty() {
+            return Ok(kind);
+        }
+        let mut torsion = core::mem::take(&mut self.system.static_torsion);
+        for own in &mut torsion.segments {
+            own.column.clear();
+            own.column.resize(6 * self.model.nodes(), 0.0);
+            own.column[own.segment.range()].copy_from_slice(&own.gradient);
+            project_vector(self.model, &mut own.column);
+            self.diagnostics.solves += 1;
+            self.system.step.factorisation.solve(self.system.level, &mut own.column);
+        }
+        let StaticTorsion { segments, scale, rank, .. } = &mut torsion;
+        let product = |s: usize, t: usize| dot(&segments[s].gradient, &segments[t].column[segments[s].segment.range()]);
+        let outcome = rank.factor(segments.len(), |s| *scale * segments[s].segment.stiffness, product);
+        let removed = rank.negative();
+        self.system.static_torsion = torsion;
+        outcome?;
+        Ok(match kind {
+            Definiteness::Indefinite { negative: Some(count) } if count == removed => Definiteness::PositiveDefinite,
+            Definiteness::Indefinite { negative: Some(count) } => {
+                Definiteness::Indefinite { negative: count.checked_sub(removed) }
+            }
+            kind => kind,
+        })
+    }
+
+    /// Completes a solution with the step matrix by torsion.
+    pub(super) fn complete_by_torsion(&mut self, x: &mut [f64]) {
+        let StaticTorsion { segments, rank, .. } = &mut self.system.static_torsion;
+        if segments.is_empty() {
+            return;
+        }
+        let product = |s: usize| dot(&segments[s].gradient, &x[segments[s].segment.range()]);
+        let forces = rank.forces(segments.len(), product);
+        for (own, force) in segments.iter().zip(forces) {
+            x.iter_mut().zip(&own.column).for_each(|(x, y)| *x -= force * y);
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Cables with torsion, in statics and in motion.
+
+mod motion;
+mod statics;
