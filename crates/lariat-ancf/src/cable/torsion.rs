@@ -45,6 +45,24 @@ impl Cable {
         segments.into_iter().zip(twists.into_iter().flatten()).collect()
     }
 
+    /// Returns whether torsion does nothing, because no two nodes hold the spin.
+    pub(crate) fn has_idle_torsion(&self) -> bool {
+        self.model.effects.torsion.is_some() && self.segments().is_empty()
+    }
+
+    /// Returns the largest |M| l/EI of an element, by the twists of the last step.
+    pub(crate) fn largest_twist(&self) -> f64 {
+        let Some(torsion) = &self.model.effects.torsion else { return 0.0 };
+        let elements = &self.model.elements;
+        let of = |twist: &SegmentTwist| {
+            let Some(own) = elements.get(twist.nodes[0]..twist.nodes[1]) else { return 0.0 };
+            let length: f64 = own.iter().map(|element| element.length).sum();
+            let torque = torsion.stiffness * twist.twist.abs() / length;
+            own.iter().map(|e| torque * e.length / e.section.bending_stiffness).fold(0.0, f64::max)
+        };
+        self.snapshot.state.memory.torsion.iter().flatten().map(of).fold(0.0, f64::max)
+    }
+
     /// Returns whether no motor turns from now on.
     pub(crate) fn is_spin_still(&self) -> bool {
         self.model.effects.torsion.is_none_or(|torsion| torsion.is_still(self.time()))

@@ -257,6 +257,38 @@ pub enum Warning {
         /// Number of steps in which it did not.
         steps: u64,
     },
+    /// It has torsion, and no two clamps that hold its spin.
+    #[error(
+        "cable {cable:?}: its torsion does nothing, for no two clamps hold its spin: clamp it at both ends (a ball, a pin or a swivel holds none), or leave torsion out"
+    )]
+    IdleTorsion {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// Its elements are too long for the kinks of its torque.
+    #[error(
+        "cable {cable:?}: its torque times the length of an element is {ratio:.2} EI: above 1.5 the torque at which it kinks is off by more than 0.2 %, and kinks          are not resolved; try elements = {enough} instead of {elements}"
+    )]
+    CoarseTwist {
+        /// Name of the cable.
+        cable: String,
+        /// Largest |M| l/EI of an element.
+        ratio: f64,
+        /// Number of elements.
+        elements: usize,
+        /// Number of elements that would do.
+        enough: usize,
+    },
+    /// Twist was lost where it is too sharply bent.
+    #[error(
+        "cable {cable:?}: {slips} times it turned by more than 120 degrees within half an element or a step, where its twist is not kept, so its torque is probably          wrong: try more elements, shorter steps, or more stiffness in bending"
+    )]
+    TwistSlips {
+        /// Name of the cable.
+        cable: String,
+        /// Number of such turns.
+        slips: u64,
+    },
     /// Too short for its thickness.
     #[error(
         "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \

@@ -10,7 +10,7 @@
 
 use super::{Warning, sizes};
 use crate::cable::Cable;
-use crate::scales::watch::{ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN};
+use crate::scales::watch::{ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN, TWIST};
 use crate::strength::Unseen;
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
@@ -19,7 +19,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 14] = [
+const LAWS: [(Law, bool); 15] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -34,6 +34,7 @@ const LAWS: [(Law, bool); 14] = [
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
     (|_, cable, _| unresolved(cable), true),
+    (Watch::twist, true),
 ];
 
 /// Layout: the bit of warnings about sizes.
@@ -77,6 +78,7 @@ impl Watch {
         if share > self.tension[0] {
             self.tension = [share, tension, stiffness, cable.time()];
         }
+        self.twist = self.twist.max(cable.largest_twist());
         if cable.end_noise > self.noise.0 && cable.is_straight() {
             self.noise = (cable.end_noise, cable.time());
         }
@@ -177,6 +179,18 @@ impl Watch {
         (noise_n > NOISE * tension_n).then(|| Warning::RoundedEnds { cable: cable(), time_s, noise_n, tension_n })
     }
 
+    fn twist(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
+        let (slips, elements, name) =
+            (cable.diagnostics().twist_slips, cable.elements().len(), || cable.name().to_string());
+        if slips > 0 {
+            return Some(Warning::TwistSlips { cable: name(), slips });
+        }
+        (self.twist > TWIST).then(|| {
+            let enough = more(elements, (self.twist / (0.5 * TWIST)).powi(4));
+            Warning::CoarseTwist { cable: name(), ratio: self.twist, elements, enough }
+        })
+    }
+
     fn crossed(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let steps = cable.diagnostics().crossed_steps;
         (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
@@ -244,7 +258,9 @@ impl Cable {
         let mut last = None;
         let other = move |element: &&crate::Element| last.replace(element.section) != Some(element.section);
         let sections = self.elements().iter().filter(other);
-        sections.flat_map(|element| sizes::warnings(self.name(), &element.section, self.length()))
+        let sizes = sections.flat_map(|element| sizes::warnings(self.name(), &element.section, self.length()));
+        let idle = self.has_idle_torsion().then(|| Warning::IdleTorsion { cable: self.name().to_string() });
+        sizes.chain(idle)
     }
 
     /// Lets the cable read itself after each of its host steps, or no longer:

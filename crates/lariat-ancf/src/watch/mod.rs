@@ -51,6 +51,9 @@ pub struct Watch {
     pub(crate) tension: [f64; 4],
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     pub(crate) reel: (f64, f64),
+    /// Largest |M| l/EI of an element.
+    #[serde(default)]
+    pub(crate) twist: f64,
     /// Largest force in N that the rounding of what holds it made, and its time in s.
     #[serde(default)]
     pub(crate) noise: (f64, f64),

@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! ```text
-//! U = K Phi^2/2        K = 1/sum(l_e/GJ)        M = K Phi
+//! U = K Phi^2/2        K = 1/sum(l_e/GJ)        M = K (Phi + tau d Phi/dt)
 //! ```
 //!
 //! Where the section is isotropic nothing acts on the spin of an inner cross-section, so the torque
@@ -114,6 +114,10 @@ pub struct Torsion {
     /// Turns by which the cable is twisted as built between its first and its last hold; default 0.
     #[serde(default)]
     pub initial_twist: f64,
+    /// Time in s by which it damps, >= 0; default 0: M = K (Phi + time d Phi/dt). A damping ratio z
+    /// at omega rad/s is 2 z/omega.
+    #[serde(default)]
+    pub damping: f64,
     /// Spin of the first node, if it is clamped.
     #[serde(default)]
     pub start: EndSpin,
@@ -125,7 +129,7 @@ pub struct Torsion {
 impl Torsion {
     /// Torsion of stiffness GJ in N m^2: untwisted as built, clamps hold the spin.
     pub fn new(stiffness: f64) -> Self {
-        Torsion { stiffness, initial_twist: 0.0, start: EndSpin::Held, end: EndSpin::Held }
+        Torsion { stiffness, initial_twist: 0.0, damping: 0.0, start: EndSpin::Held, end: EndSpin::Held }
     }
 
     /// That of a solid round section or a round tube of bending stiffness EI in N m^2 and a Poisson
@@ -153,11 +157,12 @@ impl Torsion {
 }
 
 impl Effect for Torsion {
-    const DISSIPATIVE: bool = false;
+    const DISSIPATIVE: bool = true;
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         require("torsional stiffness GJ (N m^2)", self.stiffness, self.stiffness > 0.0, "> 0")?;
         require("initial twist (turns)", self.initial_twist, true, "a number")?;
+        require("damping time of torsion (s)", self.damping, self.damping >= 0.0, ">= 0")?;
         if cable.has_no_bending() {
             return Err(cable.missing("torsion", Requirement::BendingRule));
         }
@@ -166,7 +171,7 @@ impl Effect for Torsion {
     }
 
     fn depends_on_velocity(&self) -> bool {
-        false
+        self.damping > 0.0
     }
 
     fn has_exact_tangent(&self) -> bool {

@@ -6,17 +6,17 @@
 //! before,
 //!
 //! ```text
-//! M^ = K (Phi0 + b D Phi - a O Phi)        impulse -h M^ c on the coordinates
+//! M^ = K (Phi0 + b D Phi - a O Phi + tau D Phi/h)        impulse -h M^ c on the coordinates
 //! D theta = 2 atan(w.t/2) = sigma w.t      w = h w^, t = (t0 + t1)/2, of a body that turns by the Cayley map
-//! M^ D Phi = D(K Phi^2/2) + a/2 K (D Phi^2 - O Phi^2) + a/2 K (D Phi - O Phi)^2
+//! M^ D Phi = D(K Phi^2/2) + a/2 K (D Phi^2 - O Phi^2) + a/2 K (D Phi - O Phi)^2 + K tau D Phi^2/h
 //! ```
 //!
 //! so the angular impulse on the body of the last hold is -h M^ sigma t, on that of the first +h M^
-//! sigma t, and the energy law of the step holds to rounding: the last line is energy, store and
-//! numerical dissipation. A motor does the work M^ D theta. To the step matrix belong
+//! sigma t, and the energy law of the step holds to rounding: the last line is energy, store,
+//! numerical dissipation and damping. A motor does the work M^ D theta. To the step matrix belong
 //!
 //! ```text
-//! b h^2/2 M^ Hess(Phi_e)(mean)  +  b^2 h^2 K g g^T        g = c, and -+ sigma t of the bodies
+//! b h^2/2 M^ Hess(Phi_e)(mean)  +  b h^2 K (b + tau/h) g g^T        g = c, and -+ sigma t of the bodies
 //! ```
 //!
 //! of which the second part couples all coordinates of a segment:
@@ -84,8 +84,12 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
 
     fn balance(island: &mut IslandStep<'_, '_>, balance: &mut Balance) {
         for own in &island.buffers.torsions.list {
-            let leg = island.cables[own.cable].step_buffers.leg;
+            let cable = &mut *island.cables[own.cable];
+            let (leg, h) = (cable.step_buffers.leg, cable.step_buffers.h);
             let (stiffness, second) = (own.segment.stiffness, own.change - own.before);
+            let lost = own.damping * own.change * own.change / h;
+            cable.system.meter.work_of_step.torsion -= lost;
+            balance.to(Account::Elements).loss += lost;
             balance.numerical += 0.5 * leg.a * stiffness * second * second;
             balance.held += 0.5 * stiffness * own.start * own.start;
             let driven = own.ends[1].driven - own.ends[0].driven;
@@ -127,6 +131,7 @@ impl IslandStep<'_, '_> {
                 let own = &mut list[count];
                 count += 1;
                 (own.cable, own.number, own.segment) = (c, number, *segment);
+                own.damping = segment.stiffness * model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
                 own.ends = segment.nodes.map(|node| End::of(&buffers[c].holds, node));
                 let Some(twist) = state.memory.torsion.as_mut().and_then(|all| all.get_mut(number)) else { continue };
                 let moved = &mut own.secant;
@@ -184,7 +189,8 @@ impl IslandStep<'_, '_> {
                 }
                 own.change += SIGNS[side] * end.angle;
             }
-            own.torque = own.segment.stiffness * (own.start + b.leg.b * own.change - b.leg.a * own.before);
+            own.torque = own.segment.stiffness * (own.start + b.leg.b * own.change - b.leg.a * own.before)
+                + own.damping * own.change / b.h;
             for (side, end) in own.ends.iter().enumerate().filter(|(_, end)| end.body.is_some()) {
                 // of two segments at one body, each adds its own
                 let twist = &mut buffers[own.cable].holds[end.hold].twists[side];
@@ -238,7 +244,7 @@ impl IslandStep<'_, '_> {
             });
         }
         let Torsions { list, columns, rank, .. } = &mut torsions;
-        let stiffness = |s: usize| (leg.b * h).powi(2) * list[s].segment.stiffness;
+        let stiffness = |s: usize| leg.b * h * (leg.b * h * list[s].segment.stiffness + list[s].damping);
         let product = |s: usize, t: usize| list[s].along(&columns[t].0[list[s].cable], &columns[t].1);
         let outcome = if count > 0 { rank.factor(count, stiffness, product) } else { Ok(()) };
         self.buffers.torsions = torsions;

@@ -32,6 +32,8 @@ pub(super) struct SegmentStep {
     /// Its number among those of the cable.
     pub number: usize,
     pub segment: Segment,
+    /// K tau in N m s.
+    pub damping: f64,
     /// Phi0 and O Phi.
     pub start: f64,
     pub before: f64,
@@ -62,9 +64,21 @@ pub(super) const SIGNS: [f64; 2] = [-1.0, 1.0];
 
 impl SegmentStep {
     pub fn new(segment: Segment) -> Self {
-        let (start, before, change, torque) = (0.0, 0.0, 0.0, 0.0);
+        let (damping, start, before, change, torque) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let ends = [End::default(); 2];
-        SegmentStep { cable: 0, number: 0, segment, start, before, change, torque, slips: 0, secant: Vec::new(), ends }
+        SegmentStep {
+            cable: 0,
+            number: 0,
+            segment,
+            damping,
+            start,
+            before,
+            change,
+            torque,
+            slips: 0,
+            secant: Vec::new(),
+            ends,
+        }
     }
 
     /// Returns the product of g and increments of the cable and of the bodies.
