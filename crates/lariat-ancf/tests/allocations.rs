@@ -9,8 +9,8 @@ use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle};
 use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
-    At, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,
-    StepControl, Vector3, step_all,
+    At, Contact, Damping, Drag, Effects, EndSpin, Fidelity, Flow, Integrator, LineLoad, Method, PointLoad, RestShape,
+    StepControl, Torsion, Vector3, step_all,
 };
 
 /// The counter counts an allocation.
@@ -40,6 +40,22 @@ fn a_warm_cable_steps_without_allocating() {
             assert_eq!(allocations(|| run(100)), 0, "{method}, {control:?}");
         }
     }
+}
+
+/// The same of a twisted cable that a motor winds up, and reads itself.
+///
+/// *Source.* The contract.
+#[test]
+fn a_warm_twisted_cable_steps_without_allocating() {
+    let end = EndSpin::Motor { rate: 0.2, from: 0.0, until: 10.0 };
+    let torsion = Some(Torsion { initial_twist: 0.5, damping: 0.01, end, ..Torsion::new(0.05) });
+    let effects = Effects { torsion, ..Effects::default() };
+    let mut cable =
+        pendulum(10).clamp(At::Start).clamp(At::End).effects(effects).fidelity(Fidelity::Game).build().unwrap();
+    cable.set_watched(true);
+    let mut run = |steps: usize| (0..steps).for_each(|_| cable.step(1.0 / 240.0).unwrap());
+    run(10);
+    assert_eq!(allocations(|| run(100)), 0);
 }
 
 /// All effects that a step evaluates.

@@ -2,7 +2,7 @@
 
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{
-    At, Cable, CableBuilder, Damping, Effects, EndSpin, Integrator, Section, StepControl, Torsion, Vector3,
+    At, Cable, CableBuilder, Damping, Effects, EndSpin, Integrator, Reel, Section, StepControl, Torsion, Vector3,
 };
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
@@ -378,4 +378,17 @@ fn a_disc_that_has_come_to_rest_sleeps_until_a_motor_is_set() {
     assert!(most > 0.3, "{most}");
     // a quarter of a turn, right-handed about the cable, which points down
     assert!((turned + Vector3::y() * 0.25 * TAU).norm() < 0.05, "{turned:?}");
+}
+
+/// Statics of twisted cables and bodies together, and a reel on a twisted cable, are refused by name.
+///
+/// Reference: the contract.
+#[test]
+fn what_does_not_carry_torsion_is_refused() {
+    let (mut world, mut set, rope) = hoist(EndSpin::Held);
+    set.step(&mut world).unwrap();
+    let error = set.equilibrium(&mut world).unwrap_err().to_string();
+    assert!(error.contains("torsion"), "{error}");
+    let error = set.get_mut(rope).unwrap().add_reel(At::Start, Reel::default()).unwrap_err().to_string();
+    assert!(error.contains("torsion"), "{error}");
 }

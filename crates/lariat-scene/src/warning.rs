@@ -130,8 +130,8 @@ pub enum Warning {
     },
     /// A cable without torsion gets a moment about its own direction.
     #[error(
-        "cable {cable:?}: the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, as drawn: a cable has no torsion, and that part \
-         does nothing"
+        "cable {cable:?}: the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, as drawn, and that part does \
+         nothing: twist an end by a motor of its torsion, or put the moment on a body"
     )]
     MomentAlong {
         /// Name of the cable.

@@ -1,8 +1,6 @@
 //! Energies and momenta of a cable, summed over its elements.
 
 use super::Cable;
-use crate::effect::torsion::segment::Segment;
-use crate::state::SegmentTwist;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -60,8 +58,7 @@ impl Cable {
             return store;
         }
         let share = 0.5 * self.snapshot.state.memory.differences.dissipation;
-        let of = |(segment, twist): (Segment, SegmentTwist)| share * segment.stiffness * twist.change.powi(2);
-        store + self.segments().into_iter().map(of).sum::<f64>()
+        store + self.sum_of_segments(|segment, twist| share * segment.stiffness * twist.change.powi(2))
     }
 
     /// Returns kinetic, strain and gravity energy of the present state.
@@ -79,8 +76,7 @@ impl Cable {
             + self.system.feed_kinetic(&self.model, time, q, v);
         let gravity = -self.system.loads.gravity_work(self.positions());
         let potentials = self.system.potentials.energy(&self.model, self.positions());
-        let torsion =
-            self.segments().iter().map(|(segment, twist)| 0.5 * segment.stiffness * twist.twist.powi(2)).sum();
+        let torsion = self.sum_of_segments(|segment, twist| 0.5 * segment.stiffness * twist.twist.powi(2));
         Energy { kinetic, axial, bending, gravity, torsion, potentials }
     }
 

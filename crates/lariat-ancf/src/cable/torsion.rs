@@ -2,6 +2,7 @@
 
 use super::Cable;
 use crate::effect::torsion::segment::Segment;
+use crate::error::Error;
 use crate::state::SegmentTwist;
 use crate::system::project_vector;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -33,6 +34,29 @@ impl Cable {
         self.segments().into_iter().map(reading).collect()
     }
 
+    /// Returns torque and twist at an arc length in m; `None` where no clamp on both sides holds
+    /// the spin. At a clamp between two segments they are those of the first.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] beyond the cable.
+    pub fn torsion_at(&self, arc_length: f64) -> Result<Option<TorsionReading>, Error> {
+        self.check_arc_length(arc_length)?;
+        let (element, _) = self.model.locate(arc_length);
+        let contains = |reading: &TorsionReading| (reading.nodes[0]..reading.nodes[1]).contains(&element);
+        Ok(self.torsion().into_iter().find(contains))
+    }
+
+    /// Returns the sum of `f` over the segments with their twists, without an allocation while a
+    /// run goes on.
+    pub(crate) fn sum_of_segments(&self, f: impl Fn(&Segment, &SegmentTwist) -> f64) -> f64 {
+        let known = self.snapshot.state.memory.torsion.as_deref().unwrap_or_default();
+        let is_right = |(segment, twist): (Segment, &SegmentTwist)| segment.nodes == twist.nodes;
+        if self.model.segments().count() == known.len() && self.model.segments().zip(known).all(is_right) {
+            return self.model.segments().zip(known).map(|(segment, twist)| f(&segment, twist)).sum();
+        }
+        self.segments().iter().map(|(segment, twist)| f(segment, twist)).sum()
+    }
+
     /// Returns the segments with their twists.
     pub(crate) fn segments(&self) -> Vec<(Segment, SegmentTwist)> {
         let mut segments = Vec::new();
@@ -47,7 +71,7 @@ impl Cable {
 
     /// Returns whether torsion does nothing, because no two nodes hold the spin.
     pub(crate) fn has_idle_torsion(&self) -> bool {
-        self.model.effects.torsion.is_some() && self.segments().is_empty()
+        self.model.effects.torsion.is_some() && self.model.segments().next().is_none()
     }
 
     /// Returns the largest |M| l/EI of an element, by the twists of the last step.

@@ -10,10 +10,19 @@ impl Model {
     /// Finds the segments between nodes that hold the spin; none without torsion.
     pub(crate) fn find_segments(&self, out: &mut Vec<Segment>) {
         out.clear();
-        if let Some(torsion) = &self.effects.torsion {
-            let holds = self.supports.iter().filter(|(node, support)| self.holds_spin(torsion, *node, support));
-            Segment::find(torsion, &self.elements, holds.map(|(node, _)| *node), out);
-        }
+        out.extend(self.segments());
+    }
+
+    /// Returns them.
+    pub(crate) fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
+        self.effects.torsion.iter().flat_map(move |torsion| {
+            let mut before = None;
+            let holds = self.supports.iter().filter(move |(node, support)| self.holds_spin(torsion, *node, support));
+            holds.filter_map(move |(node, _)| {
+                let first = before.replace(*node)?;
+                Some(Segment::between(torsion, &self.elements, [first, *node]))
+            })
+        })
     }
 
     /// Makes the twists of a state those of the segments.

@@ -182,6 +182,9 @@ impl Watch {
     fn twist(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let (slips, elements, name) =
             (cable.diagnostics().twist_slips, cable.elements().len(), || cable.name().to_string());
+        if cable.has_idle_torsion() {
+            return Some(Warning::IdleTorsion { cable: name() });
+        }
         if slips > 0 {
             return Some(Warning::TwistSlips { cable: name(), slips });
         }
@@ -258,9 +261,7 @@ impl Cable {
         let mut last = None;
         let other = move |element: &&crate::Element| last.replace(element.section) != Some(element.section);
         let sections = self.elements().iter().filter(other);
-        let sizes = sections.flat_map(|element| sizes::warnings(self.name(), &element.section, self.length()));
-        let idle = self.has_idle_torsion().then(|| Warning::IdleTorsion { cable: self.name().to_string() });
-        sizes.chain(idle)
+        sections.flat_map(|element| sizes::warnings(self.name(), &element.section, self.length()))
     }
 
     /// Lets the cable read itself after each of its host steps, or no longer:

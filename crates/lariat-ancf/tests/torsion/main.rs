@@ -1,4 +1,5 @@
-//! Cables with torsion, in statics and in motion.
+//! Cables with torsion, in statics and in motion, and with all else that a cable has.
 
 mod motion;
+mod others;
 mod statics;

@@ -27,7 +27,7 @@ from lariat._lariat import (
 )
 from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat.contact import Obstacle
-from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, RestPiece, RestShape
+from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, RestPiece, RestShape, Torsion
 from lariat.errors import Error
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
 from lariat.reel import Reel
@@ -50,6 +50,7 @@ __all__ = [
     "GravityScale",
     "Integrator",
     "LineLoad",
+    "Motor",
     "Obstacle",
     "PrismaticJoint",
     "Probe",
@@ -65,6 +66,7 @@ __all__ = [
     "SphericalJoint",
     "SpringJoint",
     "Sweep",
+    "Torsion",
     "World",
     "__version__",
     "bodies",

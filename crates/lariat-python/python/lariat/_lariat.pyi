@@ -31,6 +31,7 @@ from lariat.results import (
     Sample,
     Samples,
     Touch,
+    Twist,
     WorldEnergy,
     WorldEquilibrium,
 )
@@ -292,7 +293,10 @@ class Cable:
         """Returns forces and moments of the supports on the cable, by ascending node. Raises StepFailedError."""
 
     def energy(self) -> Energy:
-        """Returns kinetic, axial, bending and gravity energy in J."""
+        """Returns kinetic, axial, bending, gravity and torsion energy in J."""
+
+    def torsion(self) -> list[Twist]:
+        """Returns torque and twist between each two neighbouring clamps that hold the spin."""
 
     def momentum(self) -> Momentum:
         """Returns linear momentum in kg m/s, and angular momentum about the origin in kg m^2/s."""

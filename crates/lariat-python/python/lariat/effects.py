@@ -5,6 +5,7 @@ A cable takes one effect, a list of them, or a dict by key as scene files have i
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Union
@@ -47,6 +48,40 @@ class Damping:
     def from_ratio(cls, ratio: float, angular_frequency: float) -> Damping:
         """The times that damp an elastic mode of this angular frequency (rad/s) with this ratio of critical damping."""
         return cls(2.0 * ratio / angular_frequency, 2.0 * ratio / angular_frequency)
+
+
+@dataclass(frozen=True)
+class Motor:
+    """A motor that turns the spin of a clamped end at a constant rate."""
+
+    rate: float
+    """Turns per second, right-handed about the cable in the direction of arc length."""
+    start: float = 0.0
+    """Time in s at which it starts."""
+    until: float = sys.float_info.max
+    """Time in s at which it stops, and holds."""
+
+
+@dataclass(frozen=True)
+class Torsion:
+    """Torsion: one torque between two clamps that hold the spin. Needs the integrator "discrete-gradient"."""
+
+    stiffness: float
+    """GJ in N m^2, > 0."""
+    initial_twist: float = 0.0
+    """Turns by which the cable is twisted as built."""
+    damping: float = 0.0
+    """Time in s by which the twist is damped, >= 0."""
+    start: str | Motor = "held"
+    """Whether a clamp at the start holds the spin: "held", "swivel", or a motor."""
+    end: str | Motor = "held"
+    """The same at the end."""
+    key: ClassVar[str] = "torsion"
+
+    @classmethod
+    def round(cls, bending_stiffness: float, poisson: float) -> Torsion:
+        """That of a solid round section or a round tube: GJ = EI/(1 + nu)."""
+        return cls(bending_stiffness / (1.0 + poisson))
 
 
 @dataclass(frozen=True)
@@ -140,8 +175,19 @@ class AxialLaw:
     key: ClassVar[str] = "axial_law"
 
 
-Effect = Union[GravityScale, Buoyancy, AxialLaw, Damping, Drag, LineLoad, RestShape]
+Effect = Union[GravityScale, Buoyancy, AxialLaw, Damping, Drag, LineLoad, RestShape, Torsion]
 Effects = Union[Effect, Iterable[Effect], Mapping[str, Any], None]
+
+
+def _spin(end: str | Motor) -> Any:
+    return {"motor": {"rate": end.rate, "from": end.start, "until": end.until}} if isinstance(end, Motor) else end
+
+
+def _made_spin(end: Any) -> Any:
+    if isinstance(end, str):
+        return end
+    motor = end["motor"]
+    return Motor(motor["rate"], motor["from"], motor["until"])
 
 
 def _plain(effect: Any) -> Any:
@@ -152,6 +198,8 @@ def _plain(effect: Any) -> Any:
     if isinstance(effect, RestShape):
         return [_plain(piece) for piece in effect.pieces]
     values = {f.name: getattr(effect, f.name) for f in fields(effect)}
+    if isinstance(effect, Torsion):
+        return {name: _spin(value) if name in ("start", "end") else value for name, value in values.items()}
     if isinstance(effect, Drag):
         values["flow"] = {k: v for k, v in _plain(effect.flow).items() if k == "velocity" or (v is not None and len(v))}
     for ours, theirs in (("start", "from"), ("end", "to")):
@@ -203,6 +251,8 @@ def build(plain: Mapping[str, Any]) -> dict[str, Any]:
             made[key] = AxialLaw(value if isinstance(value, str) else value["curve"])
         elif key == "damping":
             made[key] = Damping(**value)
+        elif key == "torsion":
+            made[key] = Torsion(**{k: _made_spin(v) if k in ("start", "end") else v for k, v in value.items()})
         elif key == "contact":
             made[key] = Contact(**value)
         elif key == "buoyancy":

@@ -64,6 +64,10 @@ class ContactMethodError(Error, ValueError):
     """Contact with another method than "discrete-gradient": method."""
 
 
+class TorsionPlaceError(Error, ValueError):
+    """Torsion where it is not carried: by."""
+
+
 class OneElementError(Error, ValueError):
     """A limit of the strength of a cable of one element, which has no inner node to break at."""
 

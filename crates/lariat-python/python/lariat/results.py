@@ -60,6 +60,18 @@ class Reaction(NamedTuple):
     """In N m."""
 
 
+class Twist(NamedTuple):
+    """Torsion of a cable between two neighbouring clamps that hold its spin."""
+
+    nodes: tuple[int, int]
+    twist: float
+    """In rad, right-handed positive, whole turns included."""
+    torque: float
+    """In N m about the cable in the direction of arc length, on what holds the first node."""
+    twist_rate: float
+    """In rad/m."""
+
+
 class Energy(NamedTuple):
     """Energies in J; that of gravity is zero at the origin."""
 
@@ -67,6 +79,7 @@ class Energy(NamedTuple):
     axial: float
     bending: float
     gravity: float
+    torsion: float = 0.0
 
     @property
     def total(self) -> float:

@@ -171,7 +171,14 @@ impl Cable {
     /// Energies in J.
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let energy = self.read(py, |cable| Ok(cable.energy()))?;
-        result(py, "Energy", (energy.kinetic, energy.axial, energy.bending, energy.gravity))
+        result(py, "Energy", (energy.kinetic, energy.axial, energy.bending, energy.gravity, energy.torsion))
+    }
+
+    /// Torque and twist between each two neighbouring clamps that hold the spin.
+    fn torsion<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let readings = self.read(py, |cable| Ok(cable.torsion()))?;
+        let nodes = |nodes: [usize; 2]| (nodes[0], nodes[1]);
+        readings.iter().map(|r| result(py, "Twist", (nodes(r.nodes), r.twist, r.torque, r.twist_rate))).collect()
     }
 
     /// Linear momentum in kg m/s, and angular momentum about the origin in kg m^2/s.

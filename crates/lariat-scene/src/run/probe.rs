@@ -1,7 +1,7 @@
 //! What a probe writes: the columns of its file and a row of numbers.
 //!
 //! `dissipated` is the energy that damping and drag have taken from the cables, `interface_work` the work that cables have done on
-//! the bodies they are attached to, and `total` the sum of the present energies, kinetic to gravity, with `"all"` including the
+//! the bodies they are attached to, and `total` the sum of the present energies, kinetic to gravity and torsion, with `"all"` including the
 //! dynamic bodies. The gap of an attachment to the world is zero, because it is a support of the cable. Force and moment of an
 //! attachment are those on the body or the world; at t = 0 those of a cable whose bodies are still held.
 
@@ -33,6 +33,7 @@ pub(crate) fn columns(target: Target) -> &'static [&'static str] {
         Target::Attachment(_) => &["t", "fx", "fy", "fz", "mx", "my", "mz", "gap"],
         Target::Reel(_) => &["t", "length_out", "rate", "force", "tension", "work"],
         Target::Sheave(_) => &["t", "passed", "rate", "from_tension", "to_tension", "friction", "lost"],
+        Target::Torsion { .. } => &["t", "torque", "twist", "twist_rate", "energy"],
         Target::Energy(_) => &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total"],
         Target::Momentum(_) => &["t", "px", "py", "pz", "lx", "ly", "lz"],
     }
@@ -71,6 +72,12 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
             }
         }
         Target::Sheave(sheave) => row.extend(world.sheave(sheave).unwrap_or([f64::NAN; 6])),
+        Target::Torsion { cable, arc_length } => {
+            let (part, s) = world.part(cable, arc_length);
+            let reading = world.cables()[part].torsion_at(s)?;
+            // without a clamp on both sides nothing is twisted
+            row.extend(reading.map_or([0.0; 4], |at| [at.torque, at.twist, at.twist_rate, 0.5 * at.torque * at.twist]));
+        }
         Target::Energy(cable) => {
             let energy = world.energy(cable);
             let work = world.interface_work(cable)?;

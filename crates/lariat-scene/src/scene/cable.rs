@@ -51,7 +51,7 @@ table! {
         rule: Option<RuleTable> = ("`\"projected-T1\"` with `{ fidelity = \"game\" }`, else `\"projected-3\"`"), RULE;
         /// `true` runs a rule with zero-energy modes.
         allow_rank_deficient: bool = false, Kind::Flag;
-        /// Time integrator and step control. A cable with `contact`, a reel with `max_force` or a drum, or a sheave needs the method
+        /// Time integrator and step control. A cable with `contact`, `torsion`, a reel with `max_force` or a drum, or a sheave needs the method
         /// `"discrete-gradient"`, and has `{ fidelity = "game" }` by default; with `{ fidelity =
         /// "engineering" }` it is stepped by that method to 1e-5 m per host step.
         integrator: IntegratorTable = { fidelity = "engineering" }, Kind::Table(&IntegratorTable::TABLE);
@@ -168,9 +168,12 @@ pub(super) fn read(
     };
     let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
-    for (what, _) in
-        [("contact", effects.contact.is_some()), ("a reel with a clutch", slips)].iter().filter(|(_, is)| *is)
-    {
+    let needs = [
+        ("contact", effects.contact.is_some()),
+        ("torsion", effects.torsion.is_some()),
+        ("a reel with a clutch", slips),
+    ];
+    for (what, _) in needs.iter().filter(|(_, is)| *is) {
         integrator = integrator::by_discrete_gradient(doc, &at.key("integrator"), integrator, what)?;
     }
     integrator::check_tolerance(doc, &at.key("integrator").key("tolerance"), &row.integrator, length)?;

@@ -293,10 +293,12 @@ table! {
         poisson: Option<f64> = ("none"), Kind::Number(NOT_NEGATIVE);
         /// Turns by which the cable is twisted as it is built, right-handed positive.
         initial_twist: f64 = 0.0, Kind::Number(ANY);
+        /// Time by which the twist is damped: that of a damping ratio z at omega rad/s is 2 z/omega.
+        damping: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "s";
         /// Whether a clamp at the start holds the spin, does not, or turns it by a motor.
-        start: Value = ("\"held\""), END_SPIN;
+        start: Option<Value> = ("\"held\""), END_SPIN;
         /// The same of a clamp at the end.
-        end: Value = ("\"held\""), END_SPIN;
+        end: Option<Value> = ("\"held\""), END_SPIN;
     }
     choose Choose::AtLeastOne(&["stiffness", "poisson"]);
 }
@@ -330,11 +332,11 @@ impl SceneEffect for Torsion {
                 .map_err(|error| doc.conflict(&at.key("poisson"), error.to_string()))?,
             (stiffness, _) => Torsion::new(stiffness.unwrap_or_default()),
         };
-        torsion.initial_twist = table.initial_twist;
+        (torsion.initial_twist, torsion.damping) = (table.initial_twist, table.damping);
         for (key, written, spin) in [("start", table.start, &mut torsion.start), ("end", table.end, &mut torsion.end)] {
             *spin = match written {
-                Value::String(text) if text == "swivel" => EndSpin::Swivel,
-                motor @ Value::Table(_) => {
+                Some(Value::String(text)) if text == "swivel" => EndSpin::Swivel,
+                Some(motor @ Value::Table(_)) => {
                     let MotorTable { rate, from, until } = doc.typed(&at.key(key), motor)?;
                     let until = until.unwrap_or(f64::MAX);
                     if until < from {

@@ -15,7 +15,7 @@ table! {
         every: Option<f64> = ("each host step"), Kind::Number(POSITIVE), "s";
         /// Name of a cable, with `at`.
         cable: Option<String> = (), Kind::Text;
-        /// Arc length of the unstretched cable, from 0 to its length, beside `cable`.
+        /// Arc length of the unstretched cable, from 0 to its length, beside `cable` or `torsion`.
         at: Option<Position> = (), POSITION, "m";
         /// Name of a body.
         body: Option<String> = (), Kind::Text;
@@ -25,12 +25,14 @@ table! {
         reel: Option<String> = (), Kind::Text;
         /// Name of a sheave.
         sheave: Option<String> = (), Kind::Text;
+        /// Name of a cable with torsion; with `at`, the part between clamps there, by default the first.
+        torsion: Option<String> = (), Kind::Text;
         /// Name of a cable, or `"all"` for cables and dynamic bodies.
         energy: Option<String> = (), Kind::Text;
         /// Name of a cable, or `"all"` for cables and dynamic bodies.
         momentum: Option<String> = (), Kind::Text;
     }
-    choose Choose::ExactlyOne(&["cable", "body", "attachment", "reel", "sheave", "energy", "momentum"]);
+    choose Choose::ExactlyOne(&["cable", "body", "attachment", "reel", "sheave", "torsion", "energy", "momentum"]);
 }
 
 /// A checked probe.
@@ -62,6 +64,13 @@ pub enum Target {
     Reel(usize),
     /// Sheave.
     Sheave(usize),
+    /// Torsion of a cable at a point.
+    Torsion {
+        /// The cable.
+        cable: usize,
+        /// Arc length in m.
+        arc_length: f64,
+    },
     /// Energy of a cable, or of all.
     Energy(Option<usize>),
     /// Momentum of a cable, or of all.
@@ -87,9 +96,9 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
         let problem = format!("{every} s makes {:.3e} samples", scene.duration / every);
         return Err(doc.conflict(&at.key("every"), problem));
     }
-    if row.at.is_some() && row.cable.is_none() {
+    if row.at.is_some() && row.cable.is_none() && row.torsion.is_none() {
         let problem = Problem::Conflict("at is for a probe of a cable".to_string());
-        return Err(doc.error_accepting(&at.key("at"), problem, "at beside cable"));
+        return Err(doc.error_accepting(&at.key("at"), problem, "at beside cable or torsion"));
     }
     let cable_or_all = |key: &str, name: &str| match name {
         "all" => Ok(None),
@@ -115,6 +124,13 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
         let known = || scene.sheaves.iter().map(|s| s.name.as_str());
         let unknown = || doc.unknown_name(&at.key("sheave"), "sheave", name, known());
         Target::Sheave(known().position(|n| n == name).ok_or_else(unknown)?)
+    } else if let Some(name) = &row.torsion {
+        let cable = cable(doc, &at.key("torsion"), scene, name)?;
+        if scene.cables[cable].effects.torsion.is_none() {
+            return Err(doc.conflict(&at.key("torsion"), format!("cable {name:?} has no torsion")));
+        }
+        let point = |point| arc_length(doc, &at.key("at"), point, scene.whole_length(cable));
+        Target::Torsion { cable, arc_length: row.at.map_or(Ok(0.0), point)? }
     } else if let Some(name) = &row.energy {
         Target::Energy(cable_or_all("energy", name)?)
     } else {

@@ -150,6 +150,7 @@ fn about(scene: &Scene, target: Target) -> String {
         Target::Point { cable, arc_length } => format!("cable {} at {arc_length} m", scene.cables[cable].name),
         Target::Body(i) => format!("body {}", scene.bodies[i].name),
         Target::Attachment(k) => format!("attachment {}", scene.attachments[k].name),
+        Target::Torsion { cable, .. } => format!("torsion of cable {}", scene.cables[cable].name),
         Target::Reel(cable) => format!("reel of cable {}", scene.cables[cable].name),
         Target::Sheave(i) => format!("sheave {}", scene.sheaves[i].name),
         Target::Energy(cable) => format!("energy of {}", whose(cable)),

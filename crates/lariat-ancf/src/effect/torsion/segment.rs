@@ -27,15 +27,10 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    /// Finds those of a cable between the nodes that hold its spin, ascending.
-    pub fn find(torsion: &Torsion, elements: &[Element], holds: impl Iterator<Item = usize>, out: &mut Vec<Segment>) {
-        let mut before = None;
-        for node in holds {
-            if let Some(first) = before.replace(node) {
-                let length: f64 = elements[first..node].iter().map(|element| element.length).sum();
-                out.push(Segment { nodes: [first, node], stiffness: torsion.stiffness / length });
-            }
-        }
+    /// Returns that between two nodes that hold the spin of a cable, ascending.
+    pub fn between(torsion: &Torsion, elements: &[Element], nodes: [usize; 2]) -> Self {
+        let length: f64 = elements[nodes[0]..nodes[1]].iter().map(|element| element.length).sum();
+        Segment { nodes, stiffness: torsion.stiffness / length }
     }
 
     /// Returns the numbers of the elements.

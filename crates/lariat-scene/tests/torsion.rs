@@ -1,0 +1,139 @@
+//! Twisted cables in a scene.
+
+use lariat_scene::run::{self, Options, Summary};
+use lariat_scene::{Purpose, Scene};
+use std::f64::consts::PI;
+
+/// A ball of J = 2/5 m r^2 = 0.004 kg m^2 that hangs on a twisted rope of 1 m, GJ = 0.02 N m^2.
+const HOOK: &str = r#"
+duration = 12.0
+
+[[body]]
+name = "hook"
+shape = { ball = 0.1 }
+mass = 1.0
+position = [0.0, 1.9, 0.0]
+
+[[cable]]
+name = "rope"
+points = [[0.0, 3.0, 0.0], [0.0, 2.0, 0.0]]
+axial_stiffness = 1e4
+bending_stiffness = 0.026
+mass_per_length = 0.01
+elements = 4
+
+[cable.torsion]
+stiffness = 0.02
+initial_twist = 0.25
+
+[[attachment]]
+cable = "rope"
+at = "start"
+body = "world"
+kind = "clamp"
+
+[[attachment]]
+cable = "rope"
+at = "end"
+body = "hook"
+anchor = [0.0, 0.1, 0.0]
+kind = "clamp"
+
+[[probe]]
+name = "twist"
+torsion = "rope"
+
+[[probe]]
+name = "energy"
+energy = "all"
+"#;
+
+type Rows = Vec<Vec<f64>>;
+
+/// Runs the scene with replacements; returns the rows of both probes.
+fn run(replaced: &[(&str, &str)]) -> Result<(Summary, [Rows; 2]), String> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("hook.toml");
+    let text = replaced.iter().fold(HOOK.to_string(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    });
+    std::fs::write(&file, text).unwrap();
+    let scene = Scene::read(&file, &[] as &[String], Purpose::Run).map_err(|error| error.to_string())?;
+    let out = folder.path().join("out");
+    let summary = run::run(&scene, &out, &mut Options::default()).map_err(|error| error.to_string())?;
+    let rows = |name: &str| -> Rows {
+        let text = std::fs::read_to_string(out.join(format!("probes/{name}.csv"))).unwrap_or_default();
+        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+    };
+    Ok((summary, ["twist", "energy"].map(rows)))
+}
+
+/// The probe has twist, torque, rate and energy; the hook turns with the frequency of a torsional pendulum,
+/// and the balance closes.
+///
+/// *Source.* sqrt(GJ/(L J)); conservation of energy.
+#[test]
+fn a_hook_of_a_scene_turns_on_its_rope() {
+    let (summary, [twist, _]) = run(&[]).unwrap();
+    assert!(summary.failed.is_none(), "{summary:?}");
+    for row in &twist {
+        let [_, torque, twist, rate, energy] = row[..] else { panic!("{row:?}") };
+        assert!((torque - 0.02 * twist).abs() < 1e-9 && (rate - twist).abs() < 1e-9, "{row:?}");
+        assert!((energy - 0.01 * twist * twist).abs() < 1e-9, "{row:?}");
+    }
+    let passages: Vec<f64> = twist
+        .windows(2)
+        .filter(|pair| pair[0][2] * pair[1][2] < 0.0)
+        .map(|pair| pair[0][0] + pair[0][2] / (pair[0][2] - pair[1][2]) * (pair[1][0] - pair[0][0]))
+        .collect();
+    let count = passages.len() - 1;
+    let (own, exact) = (PI * count as f64 / (passages[count] - passages[0]), f64::sqrt(0.02 / 0.004));
+    println!("{own} of {exact} rad/s");
+    assert!((own / exact - 1.0).abs() < 1e-4, "{own} of {exact} rad/s");
+    let balance = summary.energy_balance.unwrap();
+    assert!(balance.made() < 1e-6, "{balance:?}");
+}
+
+/// A motor turns the hook on, by a Poisson number with EI = 0.026 N m^2 for the same GJ, and damping lets it rest.
+///
+/// *Source.* The turns of the motor, once it has stopped; damping of Kelvin-Voigt.
+#[test]
+fn a_motor_of_a_scene_turns_the_hook() {
+    let motor = "poisson = 0.3\ndamping = 0.3\nstart = { rate = 0.5, from = 0.5, until = 1.5 }\n";
+    let (summary, [twist, _]) = run(&[("stiffness = 0.02\ninitial_twist = 0.25", motor)]).unwrap();
+    assert!(summary.failed.is_none(), "{summary:?}");
+    let most = twist.iter().map(|row| row[2].abs()).fold(0.0, f64::max);
+    let last = twist.last().unwrap();
+    println!("{most} rad, {last:?}");
+    assert!(most > 1.0 && last[2].abs() < 1e-2, "{most} {last:?}");
+    let first = twist.iter().find(|row| row[2].abs() > 0.1).unwrap();
+    assert!((first[1] / first[2] - 0.02).abs() < 1e-9, "{first:?}");
+}
+
+/// What cannot be right is an error at its key, or a warning.
+///
+/// *Source.* The contract.
+#[test]
+fn what_is_wrong_with_torsion_in_a_scene_is_told() {
+    let wrong = [
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\npoisson = 0.3", "Poisson"),
+        ("\nstiffness = 0.02", "", "poisson"),
+        ("\nstiffness = 0.02", "\npoisson = 0.7", "poisson"),
+        ("\nstiffness = 0.02", "\nstiffness = -1.0", "stiffness"),
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = \"free\"", "start"),
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rate = 1.0, from = 2.0, until = 1.0 }", "stops before"),
+        ("elements = 4\n", "elements = 4\nintegrator = { method = \"esdirk4\", tolerance = 1e-5 }\n", "torsion"),
+        ("duration = 12.0", "duration = 12.0\ninitial = \"equilibrium\"", "torsion"),
+        ("[cable.torsion]\nstiffness = 0.02\ninitial_twist = 0.25\n", "", "no torsion"),
+    ];
+    for (from, to, told) in wrong {
+        match run(&[(from, to)]) {
+            Err(error) => assert!(error.contains(told), "{to}: {error}"),
+            Ok((summary, _)) => panic!("{to}: {summary:?}"),
+        }
+    }
+    let (summary, [twist, _]) = run(&[("kind = \"clamp\"", "kind = \"ball\"")]).unwrap();
+    assert!(format!("{:?}", summary.warnings).contains("IdleTorsion"), "{:?}", summary.warnings);
+    assert!(twist.iter().all(|row| row[1..] == [0.0; 4]));
+}
