@@ -186,6 +186,119 @@ fn a_bad_curve_is_refused() {
     assert!(matches!(refused(AxialLaw::Hooke, "G3-3"), Err(Error::MissingForEffect { .. })));
 }
 
+/// A damped rope that is slack carries nothing, whether it is drawn together or apart; a taut one carries what Hooke's law with damping does, but
+/// never pushes.
+///
+/// *Source.* Kelvin and Voigt, N = EA (e + tau f^2 e'), where that is tension.
+#[test]
+fn a_damped_rope_neither_pushes_nor_pulls_where_it_is_slack() {
+    let time = 0.01;
+    for (name, stretch, speed) in [0.7, 0.95, 1.001, 1.03]
+        .into_iter()
+        .flat_map(|x| [-3.0, -0.2, 0.0, 0.2, 3.0].map(move |v| ("projected-3", x, v)))
+        .chain([("L2T2", 0.9, -3.0), ("G5-3", 0.9, -3.0), ("G5-3", 1.02, 1.0)])
+    {
+        let of = |law: AxialLaw| {
+            let effects = Effects { damping: Some(Damping { axial: time, bending: 0.0 }), ..with(law) };
+            let builder = hanging(None, 1e5).effects(effects).rule(rule(name)).gravity(Vector3::zeros());
+            let mut rope = builder.build().unwrap();
+            let q: Vec<f64> = rope.positions().iter().map(|x| stretch * x).collect();
+            let v: Vec<f64> = rope.positions().iter().map(|x| 0.5 * speed * x).collect();
+            rope.set_coordinates(&q, &v).unwrap();
+            (-rope.force()[6 * 4 + 1], rope.sample(0.7).unwrap().tension)
+        };
+        let (pulled, read) = of(AxialLaw::Rope);
+        let (strain, rate) = (stretch - 1.0, 0.5 * speed);
+        let expected = if strain > 0.0 { (1e5 * (strain + time * stretch * stretch * rate)).max(0.0) } else { 0.0 };
+        let room = 1e-7 + 1e-9 * expected;
+        let case = format!("{name} {stretch} {speed}: {pulled} {read} for {expected}");
+        assert!((pulled + expected).abs() < room || (pulled - expected).abs() < room, "{case}");
+        assert!((read - expected).abs() < room, "{case}");
+        if expected > 0.0 {
+            let (hooke, hooke_read) = of(AxialLaw::Hooke);
+            assert!((pulled - hooke).abs() < 1e-7 + 1e-9 * expected && (read - hooke_read).abs() < room, "{case}");
+        }
+        let (pulled, read) = of(nylon());
+        assert!(strain > 0.0 || (pulled.abs() < 1e-7 && read == 0.0), "{name} {stretch} {speed}: {pulled} {read}");
+    }
+}
+
+/// The derivatives of the force of a damped rope by positions and velocities.
+///
+/// *Source.* Central differences.
+#[test]
+fn a_damped_rope_has_the_derivatives_of_its_force() {
+    for law in [AxialLaw::Rope, nylon()] {
+        let effects = Effects { damping: Some(Damping { axial: 2e-3, bending: 1e-3 }), ..with(law.clone()) };
+        let mut cable = hanging(None, 1e5).effects(effects).build().unwrap();
+        let mut q = cable.positions().to_vec();
+        q.iter_mut().enumerate().for_each(|(i, x)| *x = *x * 1.03 + 0.02 * (1.7 * i as f64).sin());
+        let v: Vec<f64> = (0..q.len()).map(|i| 2.0 * (0.9 * i as f64).cos()).collect();
+        let n = q.len();
+        cable.set_coordinates(&q, &v).unwrap();
+        let exact = cable.jacobians();
+        let d = 1e-6;
+        for (matrix, of_velocity) in [(&exact.stiffness, false), (&exact.damping, true)] {
+            let scale = matrix.amax();
+            for i in 0..n {
+                let mut at = |step: f64| {
+                    let (mut q, mut v) = (q.clone(), v.clone());
+                    if of_velocity {
+                        v[i] += step
+                    } else {
+                        q[i] += step
+                    }
+                    cable.set_coordinates(&q, &v).unwrap();
+                    cable.force()
+                };
+                let (up, down) = (at(d), at(-d));
+                for j in 0..n {
+                    let slope = -(up[j] - down[j]) / (2.0 * d);
+                    assert!(
+                        (matrix[(j, i)] - slope).abs() < 1e-5 * scale,
+                        "{law:?} {of_velocity} {i} {j}: {} {slope}",
+                        matrix[(j, i)]
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Damping of a rope takes energy in every step, exactly, and the energy law closes with it: thrown, snapping taut and going slack, at any step.
+///
+/// *Source.* The law: energy now is energy before less what damping and the step itself took.
+#[test]
+fn damping_of_a_rope_takes_energy_in_every_step() {
+    for law in laws() {
+        for (time, h) in [1e-4, 1e-2].into_iter().flat_map(|t| [1.0 / 60.0, 1.0 / 240.0, 1e-3].map(|h| (t, h))) {
+            let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };
+            let effects = Effects { damping: Some(Damping { axial: time, bending: 0.0 }), ..with(law.clone()) };
+            let builder = hanging(None, 1e5).effects(effects).integrator(integrator).velocity([3.0, 5.0, 1.0]);
+            let mut rope = builder.load(PointLoad::force(2.0, Vector3::new(0.0, -30.0, 0.0))).build().unwrap();
+            let total = |rope: &Cable| rope.energy().total() + rope.energy_in_store();
+            let (mut size, mut before, mut taken) = (total(&rope).abs().max(10.0), total(&rope), 0.0);
+            let mut most = 0.0f64;
+            for _ in 0..(1.0 / h) as usize {
+                let load = common::tip(&rope).y;
+                rope.step(h).unwrap();
+                let work = -30.0 * (common::tip(&rope).y - load);
+                let (now, damping) = (total(&rope), rope.effect_work().damping);
+                assert!(damping <= taken, "{law:?} {time} {h}: {:e} J", damping - taken);
+                let made = now - before - work - (damping - taken);
+                most = most.max(made / size);
+                size = size.max(now.abs());
+                (before, taken) = (now, damping);
+            }
+            let d = rope.diagnostics();
+            println!(
+                "{law:?} {time} {h}: damping took {taken:.3} J, made {most:.1e}, {} iterations",
+                d.newton_iterations
+            );
+        }
+    }
+}
+
 /// With damping, too, nothing is made.
 #[test]
 fn damping_beside_a_law_dissipates() {

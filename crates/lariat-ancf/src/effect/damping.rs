@@ -46,6 +46,8 @@
 //! about its axis by omega heats up, by at most 0.42 e EI tau omega^2/l in W (the maximum of phi w
 //! is 0.105 e); by nothing where it is straight or bent further.
 //!
+//! A section whose [axial law](super::axial_law) cannot push is not damped where it is slack.
+//!
 //! # References
 //!
 //! Garcia-Vallejo, Valverde & Dominguez, Nonlinear Dyn. 42 (2005) 347 (internal damping of ANCF
@@ -57,6 +59,7 @@
 //! What was tried, and what it gave: docs/decisions/elements.md.
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
+use super::axial_law::{LawTable, Taut};
 use super::curvature::{self, Point, Squared};
 use super::{Cut, Effect, Target};
 use crate::Real;
@@ -65,6 +68,7 @@ use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::element::step::combined;
 use crate::error::{Error, Requirement, require};
+use crate::rule::AxialRule;
 use crate::scales::effect::{NOISE, STRAIGHT};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -139,7 +143,7 @@ impl Acts for Damping {
 
     fn in_element(&self, cable: &Target<'_>) -> Option<DampingTable> {
         let points = if self.bending > 0.0 { curvature::points_of(cable.rule.bending) } else { Vec::new() };
-        Some(DampingTable { damping: *self, points })
+        Some(DampingTable { damping: *self, points, taut: None })
     }
 }
 
@@ -149,6 +153,8 @@ pub(crate) struct DampingTable {
     damping: Damping,
     /// Points of bending; empty if it is not damped.
     points: Vec<Point>,
+    /// The axial part of a law that cannot push.
+    taut: Option<Box<Taut>>,
 }
 
 impl GramForce for DampingTable {
@@ -160,7 +166,10 @@ impl GramForce for DampingTable {
     #[inline(always)]
     fn add_gradient<T: Real, L: Load<T>>(&self, at: &GramState<'_, T>, _: &L, sum: &mut Gradient<T>) {
         let Some(rates) = &at.rates else { return };
-        at.table.add_product(rates, at.stiffness.axial * self.damping.axial, &mut sum.n);
+        match &self.taut {
+            Some(taut) => taut.add_gradient(at, rates, self.damping.axial, sum),
+            None => at.table.add_product(rates, at.stiffness.axial * self.damping.axial, &mut sum.n),
+        }
         for point in &self.points {
             let w = point.squared(&at.g);
             let scale = at.stiffness.bending * (0.5 * self.damping.bending * point.weight);
@@ -180,10 +189,15 @@ impl GramForce for DampingTable {
         tangent: &mut Hessian<T>,
     ) {
         let Some(rates) = &at.rates else { return };
-        let axial = at.stiffness.axial * self.damping.axial;
-        at.table.add_product(rates, axial, &mut sum.n);
-        at.table.add_product(rates, axial, &mut tangent.geometric);
-        at.table.add_hessian(axial * rate, &mut tangent.h);
+        match &self.taut {
+            Some(taut) => taut.add_hessian((at, rates), [self.damping.axial, rate], sum, tangent),
+            None => {
+                let axial = at.stiffness.axial * self.damping.axial;
+                at.table.add_product(rates, axial, &mut sum.n);
+                at.table.add_product(rates, axial, &mut tangent.geometric);
+                at.table.add_hessian(axial * rate, &mut tangent.h);
+            }
+        }
         let mut viscous = [at.g[0].splat(0.0); 6];
         for point in &self.points {
             let w = point.squared(&at.g);
@@ -209,10 +223,15 @@ impl DiscreteGradientForce for DampingTable {
     /// vectors, so the step dissipates exactly, whatever its length.
     #[inline(always)]
     fn add_discrete_gradient<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, sum: &mut Gradient<T>) -> T {
-        let mut stress = [at.rates[0].splat(0.0); 6];
-        at.table.add_product(&at.rates, at.stiffness.axial * self.damping.axial, &mut stress);
-        let mut power = contract(&stress, &at.rates);
-        sum.n = combined(&sum.n, &stress, 1.0);
+        let mut power = match &self.taut {
+            Some(taut) => taut.add_discrete_gradient(at, self.damping.axial, sum),
+            None => {
+                let mut stress = [at.rates[0].splat(0.0); 6];
+                at.table.add_product(&at.rates, at.stiffness.axial * self.damping.axial, &mut stress);
+                sum.n = combined(&sum.n, &stress, 1.0);
+                contract(&stress, &at.rates)
+            }
+        };
         self.bending(
             at,
             #[inline(always)]
@@ -228,7 +247,10 @@ impl DiscreteGradientForce for DampingTable {
 
     #[inline(always)]
     fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, tangent: &mut Hessian<T>) {
-        at.table.add_hessian(at.stiffness.axial * (self.damping.axial * at.rate), &mut tangent.h);
+        match &self.taut {
+            Some(taut) => taut.add_step_tangent(at, self.damping.axial, tangent),
+            None => at.table.add_hessian(at.stiffness.axial * (self.damping.axial * at.rate), &mut tangent.h),
+        }
         self.bending(
             at,
             #[inline(always)]
@@ -248,6 +270,11 @@ impl DiscreteGradientForce for DampingTable {
 }
 
 impl DampingTable {
+    /// Damps a section of this law and rule.
+    pub(crate) fn follow(&mut self, law: &LawTable, rule: AxialRule) {
+        self.taut = if self.damping.axial > 0.0 { Taut::of(law, rule).map(Box::new) } else { None };
+    }
+
     /// Visits the points of bending with the squared curvature and the factors of its scalar and
     /// vector rates.
     #[inline(always)]
@@ -269,7 +296,10 @@ impl ElementForce for DampingTable {
     /// Returns the power -2R.
     fn power(&self, at: &GramState<'_, f64>, v: &Control<f64>) -> f64 {
         let Some(rates) = &at.rates else { return 0.0 };
-        let axial = at.stiffness.axial * self.damping.axial * quadratic_form(&at.table.matrix, rates, rates);
+        let axial = match &self.taut {
+            Some(taut) => taut.power(at, rates, self.damping.axial),
+            None => at.stiffness.axial * self.damping.axial * quadratic_form(&at.table.matrix, rates, rates),
+        };
         let bending = self.points.iter().map(|point| {
             let w = point.squared(&at.g);
             let (rate, shares) = (w.rate(rates), Shares::new(w.w));
@@ -284,6 +314,9 @@ impl ElementForce for DampingTable {
 
     fn strain(&self, _: usize, xi: f64, at: &GramState<'_, f64>) -> f64 {
         let Some(rates) = &at.rates else { return 0.0 };
+        if let Some(taut) = &self.taut {
+            return taut.strain(at, rates, xi, self.damping.axial);
+        }
         // linear in the Gram numbers, and -1/2 at zero
         self.damping.axial * (projected::strain(rates, xi) + 0.5)
     }

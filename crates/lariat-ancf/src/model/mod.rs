@@ -208,9 +208,18 @@ impl Model {
     /// Tables for the element kernel, if an effect acts there.
     pub(crate) fn in_element(&self) -> Option<ElementTables> {
         let (target, own) = (self.target(), self.effects.in_element(&self.target()));
-        let Some(damping) = self.least_damping() else { return own };
-        let alone = || Effects { damping: Some(damping), ..Effects::default() }.in_element(&target);
-        own.map(|tables| ElementTables { damping: damping.in_element(&target), ..tables }).or_else(alone)
+        let mut tables = match self.least_damping() {
+            None => own?,
+            Some(damping) => match own {
+                Some(tables) => ElementTables { damping: damping.in_element(&target), ..tables },
+                None => Effects { damping: Some(damping), ..Effects::default() }.in_element(&target)?,
+            },
+        };
+        // the damping of a law that cannot push
+        if let (Some(damping), Some(law)) = (&mut tables.damping, &tables.axial_law) {
+            damping.follow(law, self.rule.axial);
+        }
+        Some(tables)
     }
 
     /// Rejects effects that are out of range or that the cable has no numbers for.

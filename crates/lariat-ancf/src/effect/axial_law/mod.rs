@@ -23,8 +23,8 @@
 //!
 //! # Validity
 //!
-//! Damping is another effect, and acts in a slack element, too: with it a rope pushes by the rate
-//! of its strain. Stretch above 1/4; below, f is continued linearly in f^2, so that energy and
+//! [Damping](crate::Damping) of a law that cannot push is that of `taut.rs`: it does not push
+//! either. Stretch above 1/4; below, f is continued linearly in f^2, so that energy and
 //! force stay finite. EA of the section is the steepest slope of a curve or more: steps, tolerances
 //! and numerical dissipation go by it. With `rope` and `curve` a slack element has no axial
 //! stiffness but that share (1e-3 EA of strains that are not linear in the element).
@@ -41,6 +41,7 @@
 //! - The law at the points of the rule: with raw strain a bent element locks.
 
 mod spline;
+mod taut;
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
 use super::{Cut, Effect, Target};
@@ -54,6 +55,7 @@ use crate::scales::effect::CRUMPLED;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use spline::{Secant, Spline, stretch};
+pub(crate) use taut::Taut;
 
 /// Axial force against engineering strain. Default of a cable: none of these, but the Green law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,8 +63,8 @@ use spline::{Secant, Spline, stretch};
 pub enum AxialLaw {
     /// EA times the strain, in tension and in compression.
     Hooke,
-    /// EA times the strain in tension, nothing in compression: a rope that cannot push, but by
-    /// axial damping, if it has any.
+    /// EA times the strain in tension, nothing in compression: a rope that cannot push, with axial
+    /// damping neither.
     Rope,
     /// A measured curve: rows of strain and force in N, both ascending, from the strain at which
     /// the force begins with 0 N. It cannot push.

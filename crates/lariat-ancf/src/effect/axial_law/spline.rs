@@ -70,6 +70,11 @@ impl Spline {
         self.hinges.iter().map(|hinge| self.slope_at(hinge.at)).fold(0.0, f64::max)
     }
 
+    /// Returns the strain at which the force begins, of a law that cannot push.
+    pub fn slack(&self) -> Option<f64> {
+        self.hinges.first().filter(|_| self.slope == 0.0).map(|hinge| hinge.at)
+    }
+
     /// Returns dT/de at a strain, from above.
     fn slope_at(&self, strain: f64) -> f64 {
         let of = |h: &Hinge| if strain < h.at { 0.0 } else { h.linear + 2.0 * h.square * (strain - h.at) };
@@ -167,13 +172,13 @@ pub(super) fn stretch<T: Real>(x: T) -> [T; 3] {
 
 /// Returns a share of a change; 0 of no change.
 #[inline(always)]
-fn ratio<T: Real>(part: T, change: T) -> T {
+pub(super) fn ratio<T: Real>(part: T, change: T) -> T {
     part * change / (change * change + TINY)
 }
 
 /// Returns 1 of a positive number and 0 of zero.
 #[inline(always)]
-fn is_positive<T: Real>(x: T) -> T {
+pub(super) fn is_positive<T: Real>(x: T) -> T {
     x / (x + TINY)
 }
 
