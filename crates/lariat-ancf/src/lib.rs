@@ -55,6 +55,7 @@ pub mod integrate;
 pub mod island;
 pub mod linalg;
 mod load;
+mod material;
 mod model;
 mod obstacle;
 mod one_leg;
@@ -95,6 +96,7 @@ pub use element::{axial, bending};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
 pub use integrate::{ErrorNorm, Fidelity, Integrator, Method, StepControl};
 pub use load::PointLoad;
+pub use material::RopeMaterial;
 pub use model::STANDARD_GRAVITY;
 /// The vector type of the public interface (nalgebra's).
 pub use nalgebra::Vector3;

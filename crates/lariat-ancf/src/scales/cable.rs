@@ -65,3 +65,22 @@ pub(crate) const WAVES: usize = 8;
 
 /// Strain by which an element of a strut is compressed. Derived: beyond rounding.
 pub(crate) const COMPRESSED: f64 = 1e-9;
+
+/// Factor by which a strut that was bent is compressed more when it is bent again. Derived: what is
+/// left of the bend grows by itself beyond the load of its supports; a step of a load is seen.
+pub(crate) const BENT_AGAIN: f64 = 1.25;
+
+/// Share of the duration of a prescribed motion by which a time is after its end. Derived: beyond
+/// rounding, so that a motion that follows begins with the velocity at the end.
+pub(crate) const AFTER: f64 = 1e-9;
+
+/// Largest nominal diameter in m of a rope or chain by name. Derived: beyond 0.36 m the cubic of
+/// the breaking load of chain falls.
+pub(crate) const LARGEST_ROPE: f64 = 0.35;
+
+/// Share by which tension or sag may miss what a length was asked for. Derived: statics find shapes
+/// to about that.
+pub(crate) const SPAN_WITHIN: f64 = 1e-8;
+
+/// Rounds of the search for that length. Derived: bisection of a factor 2 down to rounding.
+pub(crate) const SPAN_ROUNDS: usize = 50;
