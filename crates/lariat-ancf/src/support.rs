@@ -16,6 +16,7 @@
 
 use crate::error::{Error, require};
 use crate::integrate::Stage;
+use crate::scales::cable::AFTER;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +27,9 @@ pub struct Motion {
     pub start: f64,
     /// Coefficients, in the unit of x over s^k.
     pub coefficients: [Vector3<f64>; 4],
+    /// Time in s from which on the value is what it is then, and the rate zero. Default: none.
+    #[serde(default)]
+    pub end: Option<f64>,
 }
 
 impl Motion {
@@ -36,7 +40,7 @@ impl Motion {
 
     /// `x` at time `start`, then constant velocity.
     pub fn uniform(start: f64, x: Vector3<f64>, velocity: Vector3<f64>) -> Self {
-        Motion { start, coefficients: [x, velocity, Vector3::zeros(), Vector3::zeros()] }
+        Motion { start, coefficients: [x, velocity, Vector3::zeros(), Vector3::zeros()], end: None }
     }
 
     /// The cubic from `(x0, v0)` at `start` to `(x1, v1)` a time `duration` later (Hermite);
@@ -49,14 +53,35 @@ impl Motion {
     ) -> Self {
         let h = duration;
         let mean = (x1 - x0) / h;
-        Motion { start, coefficients: [x0, v0, (3.0 * mean - 2.0 * v0 - v1) / h, (v0 + v1 - 2.0 * mean) / (h * h)] }
+        let coefficients = [x0, v0, (3.0 * mean - 2.0 * v0 - v1) / h, (v0 + v1 - 2.0 * mean) / (h * h)];
+        Motion { start, coefficients, end: None }
+    }
+
+    /// The same until `end` (s), and no motion from then on.
+    pub fn until(self, end: f64) -> Self {
+        Motion { end: Some(end), ..self }
+    }
+
+    /// Makes it later by a time in s.
+    pub(crate) fn delay(&mut self, by: f64) {
+        self.start += by;
+        self.end = self.end.map(|end| end + by);
     }
 
     /// Value, velocity and acceleration at `time`.
     pub fn at(&self, time: f64) -> [Vector3<f64>; 3] {
+        if let Some(end) = self.end.filter(|_| self.is_over(time)) {
+            let [x, ..] = self.at(end);
+            return [x, Vector3::zeros(), Vector3::zeros()];
+        }
         let s = time - self.start;
         let [c0, c1, c2, c3] = self.coefficients;
         [c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2.0 * c2 + 3.0 * s * c3), 2.0 * c2 + 6.0 * s * c3]
+    }
+
+    /// Whether its end is past.
+    pub(crate) fn is_over(&self, time: f64) -> bool {
+        self.end.is_some_and(|end| time - end > AFTER * (end - self.start).abs())
     }
 
     /// Whether nothing moves.
@@ -65,7 +90,9 @@ impl Motion {
     }
 
     pub(crate) fn is_finite(&self) -> bool {
-        self.start.is_finite() && self.coefficients.iter().flatten().all(|x| x.is_finite())
+        self.start.is_finite()
+            && self.end.is_none_or(f64::is_finite)
+            && self.coefficients.iter().flatten().all(|x| x.is_finite())
     }
 }
 
@@ -220,4 +247,12 @@ impl Support {
             column
         })
     }
+}
+
+/// A node that is led, and what held it before.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Prescription {
+    pub node: usize,
+    pub motion: Motion,
+    pub before: Support,
 }

@@ -1,10 +1,11 @@
 //! Changing a cable between steps: supports, loads, integrator, snapshots from before, descriptions from files.
 
 use approx::assert_relative_eq;
+use lariat_ancf::contact::{Ball, Obstacle};
 use lariat_ancf::coupling::{Coupling, Linearisation};
 use lariat_ancf::{
     At, AxialRule, BendingRule, Cable, CableBuilder, Error, Fidelity, Integrator, Method, PointLoad, Rule, Section,
-    SlopeSupport, StepControl, Support, Vector3,
+    SlopeSupport, StepControl, Support, Vector3, Warning,
 };
 
 fn horizontal() -> CableBuilder {
@@ -220,4 +221,77 @@ fn a_new_node_changes_nothing() {
     assert!((a - b).norm() < 0.02 && (a - before).norm() > 0.05, "{a} {b} {before}");
     assert!((refined.sample(2.0).unwrap().position - Vector3::new(2.0, 0.0, 0.0)).norm() < 1e-14);
     assert!(refined.insert_node(2.1).is_err() && refined.insert_node(f64::NAN).is_err());
+}
+
+/// A point that is led comes to its place with the velocity that was asked for, and stays there; a restored snapshot leads it as it did, and one
+/// from before frees it.
+///
+/// *Source.* The cubic of Hermite; the same run, not interrupted, but for the memory of the method.
+#[test]
+fn a_point_that_is_led_is_held_at_its_place_and_restored() {
+    for fidelity in [Fidelity::Game, Fidelity::Engineering] {
+        let mut cable = Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)])
+            .length(1.3)
+            .section(Section::from_stiffness(1e4, 0.01, 0.1).unwrap())
+            .fix(At::Start)
+            .fidelity(fidelity)
+            .build()
+            .unwrap();
+        let free = cable.snapshot().clone();
+        let place = Vector3::new(0.8, 0.3, 0.1);
+        cable.prescribe(At::End, place, [0.5, 0.0, 0.0], 0.25).unwrap();
+        let last = cable.nodes() - 1;
+        let step = |cable: &mut Cable, count: usize| (0..count).for_each(|_| cable.step(1.0 / 64.0).unwrap());
+        step(&mut cable, 8);
+        let middle: Vector3<f64> = 0.5 * (Vector3::x() + place) - 0.125 * 0.25 * Vector3::new(0.5, 0.0, 0.0);
+        assert!((cable.node_position(last) - middle).norm() < 1e-12, "{:?}", cable.node_position(last));
+        let halfway = cable.snapshot().clone();
+        step(&mut cable, 24);
+        assert!((cable.node_position(last) - place).norm() < 1e-12, "{:?}", cable.node_position(last));
+        let velocity = &cable.velocities()[6 * last..6 * last + 3];
+        assert!(velocity.iter().all(|v| v.abs() < 1e-12), "{fidelity:?}: {velocity:?}");
+        let end = cable.positions().to_vec();
+        // led elsewhere, then as it was
+        cable.prescribe(At::End, [3.0, 0.0, 0.0], [0.0; 3], 10.0).unwrap();
+        cable.prescribe(At::Start, [0.0, -0.2, 0.0], [0.0; 3], 0.1).unwrap();
+        step(&mut cable, 4);
+        cable.restore(halfway).unwrap();
+        step(&mut cable, 24);
+        // from positions and velocities: what the method carried was of other supports
+        let off = cable.positions().iter().zip(&end).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(off < 0.02, "{fidelity:?}: {off}");
+        assert!((cable.node_position(last) - place).norm() < 1e-12);
+        assert_eq!(cable.support(At::Start).unwrap().position.map(|motion| motion.at(9.0)[1]), Some(Vector3::zeros()));
+        cable.restore(free).unwrap();
+        assert!(cable.support(At::End).unwrap().is_free());
+        step(&mut cable, 16);
+        assert!(cable.node_position(last).y < -0.1);
+    }
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::x()])
+        .section(Section::from_stiffness(1e4, 0.01, 0.1).unwrap())
+        .build()
+        .unwrap();
+    for duration in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(
+            cable.prescribe(At::End, [1.0, 0.0, 0.0], [0.0; 3], duration),
+            Err(Error::InvalidValue { .. })
+        ));
+    }
+}
+
+/// Obstacles of a cable that does not touch are told of.
+#[test]
+fn obstacles_without_contact_are_told() {
+    let mut cable = Cable::builder()
+        .points([Vector3::zeros(), Vector3::x()])
+        .section(Section::from_stiffness(1e4, 0.01, 0.1).unwrap())
+        .build()
+        .unwrap();
+    let told =
+        |cable: &Cable| cable.warnings().iter().any(|w| matches!(w, Warning::UntouchedObstacles { count: 1, .. }));
+    assert!(!told(&cable));
+    cable.set_obstacles([Obstacle::new(7, Ball { radius: 0.1 }, Vector3::new(0.0, -1.0, 0.0), 0.3)]).unwrap();
+    assert!(told(&cable));
 }

@@ -179,3 +179,115 @@ fn a_taut_cable_is_laid_as_before_and_no_direction_is_refused() {
         assert!(free.clone().clamp_along(At::Start, direction).is_err());
     }
 }
+
+/// A rod drawn straight along x from its clamp, which turns it by this angle towards y.
+fn cantilever(length: f64, stiffness: f64, gravity: f64) -> CableBuilder {
+    let section = Section::from_stiffness(1e5, stiffness, 0.2).unwrap();
+    Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(length, 0.0, 0.0)])
+        .elements(12)
+        .section(section)
+        .gravity(Vector3::new(0.0, -gravity, 0.0))
+}
+
+fn strain_energy(cable: &Cable) -> f64 {
+    let energy = cable.energy();
+    energy.axial + energy.bending
+}
+
+fn towards(degrees: f64) -> Vector3<f64> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    Vector3::new(cos, sin, 0.0)
+}
+
+fn farthest(a: &Cable, b: &Cable) -> f64 {
+    (0..a.nodes()).map(|node| (a.node_position(node) - b.node_position(node)).norm()).fold(0.0, f64::max)
+}
+
+/// A cantilever whose clamp turns it away from its drawing starts as if it had been drawn along the clamp: without stress, and with its motion.
+///
+/// *Source.* The same rod drawn along the direction; without gravity a straight rod at rest stays.
+#[test]
+fn a_cantilever_turned_by_its_clamp_is_the_one_drawn_along_it() {
+    for (length, stiffness) in [(1.0, 5.0), (3.0, 0.05)] {
+        for degrees in [10.0, 45.0, 90.0, 135.0, 179.0, 180.0] {
+            for gravity in [0.0, 9.81] {
+                let case = format!("{length} m, EI {stiffness}, {degrees} degrees, g = {gravity}");
+                let direction = towards(degrees);
+                let turned = cantilever(length, stiffness, gravity).clamp_along(At::Start, direction).build().unwrap();
+                let mut later = cantilever(length, stiffness, gravity).build().unwrap();
+                later.clamp_along(At::Start, direction).unwrap();
+                let along = cantilever(length, stiffness, gravity).points([Vector3::zeros(), length * direction]);
+                let mut along = along.clamp(At::Start).build().unwrap();
+                let mut turned = turned;
+                assert!(strain_energy(&turned) < 1e-20, "{case}: {:e} J", strain_energy(&turned));
+                assert!(farthest(&turned, &along) < 1e-12 && farthest(&later, &along) < 1e-12, "{case}");
+                let start = turned.clone();
+                for _ in 0..6 {
+                    turned.step(1.0 / 60.0).unwrap();
+                    along.step(1.0 / 60.0).unwrap();
+                }
+                if gravity == 0.0 {
+                    assert!(farthest(&turned, &start) < 1e-9, "{case}: {:e} m", farthest(&turned, &start));
+                }
+                // both follow the motion within the tolerance of their steps
+                assert!(farthest(&turned, &along) < 1e-4 * length, "{case}: {:e} m", farthest(&turned, &along));
+            }
+        }
+    }
+}
+
+/// Beyond a pin the part with a free end goes on straight, and the part between clamp and pin is a propped beam.
+///
+/// *Source.* A beam with a rotated end and a pin: M = 3 EI theta/L, for small angles; the free part has no stress.
+#[test]
+fn a_free_part_beyond_a_pin_follows_its_tangent() {
+    let angle = 0.1f64;
+    let build = cantilever(2.0, 5.0, 0.0).clamp_along(At::Start, towards(angle)).fix(At::ArcLength(1.0));
+    let mut cable = build.build().unwrap();
+    let moment = cable.reactions().unwrap()[0].moment.z;
+    let expected = 3.0 * 5.0 * angle.to_radians();
+    assert!((moment.abs() - expected).abs() < 2e-3 * expected, "{moment} for {expected}");
+    let tail = cable.sample(1.0).unwrap().slope.normalize();
+    let end = cable.node_position(cable.nodes() - 1);
+    assert!((end - (Vector3::x() + tail)).norm() < 1e-9);
+    assert!((tail.y.atan2(tail.x) + 0.5 * angle.to_radians()).abs() < 1e-3 * angle.to_radians());
+    let start = cable.clone();
+    (0..30).for_each(|_| cable.step(1.0 / 60.0).unwrap());
+    assert!(farthest(&cable, &start) < 1e-6, "{:e}", farthest(&cable, &start));
+}
+
+/// A clamp amid a cable without other supports turns all of it; a slack cantilever hangs from its clamp in equilibrium.
+#[test]
+fn both_sides_turn_and_a_slack_cantilever_starts_at_rest() {
+    let middle = cantilever(2.0, 5.0, 0.0).clamp_along(At::ArcLength(1.0), towards(70.0)).build().unwrap();
+    assert!(strain_energy(&middle) < 1e-20);
+    let arm = middle.node_position(middle.nodes() - 1) - Vector3::x();
+    assert!((arm - towards(70.0)).norm() < 1e-12 && (middle.node_position(0) - Vector3::x() + arm).norm() < 1e-12);
+    for gravity in [0.0, 9.81] {
+        for degrees in [0.0, 40.0, 90.0, 150.0] {
+            let build = cantilever(1.0, 5.0, gravity).length(1.4).clamp_along(At::Start, towards(degrees));
+            let mut slack = build.build().unwrap();
+            let start = slack.clone();
+            (0..30).for_each(|_| slack.step(1.0 / 60.0).unwrap());
+            assert!(farthest(&slack, &start) < 1e-5, "{degrees}, {gravity}: {:e}", farthest(&slack, &start));
+        }
+    }
+}
+
+/// An end that turned with its clamp is laid where it was drawn if it is to be attached there: as if it had been held from the start.
+#[test]
+fn an_end_that_is_attached_later_is_where_it_was_drawn() {
+    for degrees in [20.0, 90.0, 179.0] {
+        let build = || cantilever(1.0, 5.0, 9.81).clamp_along(At::Start, towards(degrees));
+        let held = build().fix(At::End).build().unwrap();
+        let mut later = build().build().unwrap();
+        assert_eq!(later.drawn_position(At::End), Some(Vector3::x()));
+        later.lay_as_drawn(At::End).unwrap();
+        assert!(farthest(&later, &held) < 1e-9, "{degrees}: {:e}", farthest(&later, &held));
+        later.attach(At::End).unwrap();
+        let mut moved = build().build().unwrap();
+        moved.step(1e-3).unwrap();
+        assert_eq!(moved.drawn_position(At::End), None);
+    }
+}

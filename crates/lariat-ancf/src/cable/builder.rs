@@ -1,7 +1,9 @@
 //! Building a cable.
 
+use super::as_laid::Sagging;
 use super::clamp::{is_turned, unit};
 use super::layout::Laid;
+use super::span::Span;
 use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
 use crate::at::At;
@@ -37,6 +39,7 @@ pub struct CableBuilder {
     name: String,
     points: Vec<Vector3<f64>>,
     length: Option<f64>,
+    span: Option<Span>,
     elements: usize,
     sections: Vec<(f64, Section)>,
     nodes_at: Vec<f64>,
@@ -59,6 +62,7 @@ impl Default for CableBuilder {
             name: "cable".to_string(),
             points: Vec::new(),
             length: None,
+            span: None,
             elements: 10,
             sections: Vec::new(),
             nodes_at: Vec::new(),
@@ -103,6 +107,20 @@ impl CableBuilder {
     /// slack, in arcs that sag along gravity; shorter: it starts stretched.
     pub fn length(mut self, length: f64) -> Self {
         self.length = Some(length);
+        self
+    }
+
+    /// Instead of [`length`](Self::length): the length with which the cable has this tension in N
+    /// at its middle when it hangs between its drawn ends, under its weight and constant loads.
+    pub fn pretension(mut self, tension: f64) -> Self {
+        self.span = Some(Span::Tension(tension));
+        self
+    }
+
+    /// Instead of [`length`](Self::length): the length with which the cable hangs by this distance
+    /// in m below the line between its drawn ends, at most.
+    pub fn sag(mut self, sag: f64) -> Self {
+        self.span = Some(Span::Sag(sag));
         self
     }
 
@@ -185,7 +203,7 @@ impl CableBuilder {
     /// Holds the position of a point where it starts, and its tangent in the direction of the
     /// polyline there: at the start along the first of its segments, also if the cable is longer
     /// than drawn. A node is placed there. A slack cable starts in static equilibrium between its
-    /// clamps, under its weight, with free ends held where they are drawn.
+    /// clamps, under its weight. A part with a free end turns with its clamp, without stress.
     pub fn clamp(mut self, at: impl Into<At>) -> Self {
         self.holds.push((at.into(), Hold::Clamp(None)));
         self
@@ -257,6 +275,16 @@ impl CableBuilder {
             return Err(Error::ElementCount { cable: cable(), count: self.elements, most: MAX_ELEMENTS });
         }
         let drawn: f64 = self.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+        if let Some(span) = self.span {
+            require(
+                "sag (m) of a cable without gravity",
+                0.0,
+                self.gravity != Vector3::zeros() || !span.is_sag(),
+                "none",
+            )?;
+            let ends = [self.points[0], self.points[self.points.len() - 1]];
+            self.length = Some(span.length(drawn, &ends, |length| self.hanging(length))?);
+        }
         let length = self.length.unwrap_or(drawn);
         require("unstretched length (m)", length, length > 0.0, "> 0")?;
         require("length of the polyline (m)", drawn, drawn > 0.0, "> 0")?;
@@ -302,8 +330,8 @@ impl CableBuilder {
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
         }
         let mut laid = layout::along_polyline(&self.points, &s, self.gravity);
+        let kept = self.kept(&s, arc_length)?;
         if self.points.len() > 2 {
-            let kept = self.kept(&s, arc_length)?;
             unstrain(&mut laid, &s, &kept, drawn / length);
         }
         let mut snapshot = Snapshot::default();
@@ -360,6 +388,9 @@ impl CableBuilder {
         }
         if !turned.is_empty() {
             cable.bend_to_clamps(&turned)?;
+        } else if slack && !kept.iter().any(|kept| kept.slope) {
+            let laid = cable.positions().to_vec();
+            cable.sagging = Some(Box::new(Sagging { points: self.points, kept, laid }));
         }
         cable.set_rigid_motion(self.velocity, self.angular_velocity)?;
         for load in self.loads {
@@ -372,6 +403,20 @@ impl CableBuilder {
 }
 
 impl CableBuilder {
+    /// Builds the cable with a length in m, held at its ends, and lets it hang under its weight and
+    /// constant loads.
+    fn hanging(&self, length: f64) -> Result<Cable, Error> {
+        let builder = CableBuilder { length: Some(length), span: None, ..self.clone() };
+        let mut cable = builder.build()?.under_weight()?;
+        for at in [At::Start, At::End] {
+            if cable.support(at)?.position.is_none() {
+                cable.fix(at)?;
+            }
+        }
+        cable.equilibrium()?;
+        Ok(cable)
+    }
+
     /// Returns what of the nodes at arc lengths `s` (m) stays as drawn: ends, and nodes that are
     /// held or asked for.
     fn kept(&self, s: &[f64], arc_length: impl Fn(At) -> Result<f64, Error>) -> Result<Vec<Kept>, Error> {

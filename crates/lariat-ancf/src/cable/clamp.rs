@@ -14,9 +14,9 @@
 //! # Validity
 //!
 //! Of the shapes in equilibrium it is one that minimisation reaches from the arc, as in
-//! [statics](crate::statics). A free end is held where it is drawn while the shape is sought. If
-//! none is found, the arc remains with its slopes turned, and the strain at the start is told by a
-//! warning.
+//! [statics](crate::statics). It is sought between the first and the last held point; what is
+//! beyond them [turns](super::turned) with them. If none is found, the arc remains with its slopes
+//! turned, and the strain at the start is told by a warning.
 //!
 //! # References
 //!
@@ -102,49 +102,46 @@ impl Cable {
     }
 
     /// Returns the slope of a node.
-    fn node_slope(&self, node: usize) -> Vector3<f64> {
+    pub(super) fn node_slope(&self, node: usize) -> Vector3<f64> {
         Vector3::from_column_slice(&self.positions()[6 * node + 3..6 * node + 6])
     }
 
-    fn set_slope(&mut self, node: usize, slope: &Vector3<f64>) {
+    pub(super) fn set_slope(&mut self, node: usize, slope: &Vector3<f64>) {
         self.snapshot.state.q[6 * node + 3..6 * node + 6].copy_from_slice(slope.as_slice());
     }
 
     /// Gives the cable the shape of equilibrium between its held points, under its weight and
     /// constant loads, if one is found: from clamps along these slopes, which are turned to their
-    /// directions by and by.
+    /// directions by and by. Parts with a free end [turn](super::turned) with the point that holds
+    /// them.
     pub(super) fn bend_to_clamps(&mut self, from: &[(usize, Vector3<f64>)]) -> Result<(), Error> {
-        let Effects { gravity_scale, buoyancy, line_loads, rest_shape, axial_law, .. } = self.model.effects.clone();
-        let mut model = crate::model::Model {
-            effects: Effects { gravity_scale, buoyancy, line_loads, rest_shape, axial_law, ..Effects::default() },
-            loads: Vec::new(),
-            load_origins: Vec::new(),
-            force_densities: ForceDensities::default(),
-            potentials: Potentials::default(),
-            obstacles: Obstacles::default(),
-            reels: Reels::default(),
-            ..self.model.clone()
-        };
-        for node in [0, model.nodes() - 1] {
-            if model.support(node).is_none() {
-                model.set_support(
-                    node,
-                    Support { position: Some(Motion::fixed(self.node_position(node))), ..Support::default() },
-                );
-            }
+        let Some(held) = self.held() else { return Ok(()) };
+        let before = self.positions_before(from);
+        if held[0] < held[1] {
+            self.bend_between(held, from)?;
         }
-        for (node, support) in &mut model.supports {
-            if support.attached {
-                (support.position, support.attached) = (Some(Motion::fixed(self.node_position(*node))), false);
-            }
-            if let SlopeSupport::Attached(direction) = support.slope {
-                support.slope = SlopeSupport::Direction(direction);
-            }
+        self.turn_free_parts(held, &before);
+        if self.is_slack() && held != [0, self.nodes() - 1] {
+            self.hang_free_parts()?;
         }
-        let mut shape =
-            Cable::from_parts(model, self.snapshot.clone(), crate::Fidelity::default().integrator(f64::INFINITY))?;
+        self.note_turn(before);
+        self.disturb();
+        Ok(())
+    }
+
+    /// Bends the part between two held nodes.
+    fn bend_between(&mut self, [first, last]: [usize; 2], from: &[(usize, Vector3<f64>)]) -> Result<(), Error> {
+        let mut shape = self.under_weight()?;
+        if last + 1 < shape.nodes() {
+            shape.cut(At::Node(last))?;
+        }
+        if first > 0 {
+            let support = shape.support(At::Node(first))?;
+            shape = shape.cut(At::Node(first))?;
+            shape.set_support(At::Node(0), support)?;
+        }
         let turns: Vec<(usize, Vector3<f64>, Vector3<f64>)> =
-            from.iter().map(|(node, slope)| (*node, *slope, turn(slope, &self.node_slope(*node)))).collect();
+            from.iter().map(|(node, slope)| (node - first, *slope, turn(slope, &self.node_slope(*node)))).collect();
         let largest = turns.iter().map(|(_, _, turn)| turn.norm()).fold(0.0, f64::max);
         let steps = (largest / LARGEST_TURN).ceil().max(1.0);
         for (node, slope, _) in &turns {
@@ -161,21 +158,51 @@ impl Cable {
                 return Ok(());
             }
         }
-        // the directions to the last bit
-        for (node, support) in &shape.model.supports {
-            if let SlopeSupport::Direction(_) = support.slope {
-                let slope = self.node_slope(*node).normalize() * shape.node_slope(*node).norm();
-                shape.snapshot.state.q[6 * node + 3..6 * node + 6].copy_from_slice(slope.as_slice());
+        self.take_shape(&shape, first);
+        Ok(())
+    }
+
+    /// Returns the cable with its weight and constant loads alone, and what is attached held where
+    /// it is.
+    pub(super) fn under_weight(&self) -> Result<Cable, Error> {
+        let Effects { gravity_scale, buoyancy, line_loads, rest_shape, axial_law, .. } = self.model.effects.clone();
+        let mut model = crate::model::Model {
+            effects: Effects { gravity_scale, buoyancy, line_loads, rest_shape, axial_law, ..Effects::default() },
+            loads: Vec::new(),
+            load_origins: Vec::new(),
+            force_densities: ForceDensities::default(),
+            potentials: Potentials::default(),
+            obstacles: Obstacles::default(),
+            reels: Reels::default(),
+            ..self.model.clone()
+        };
+        for (node, support) in &mut model.supports {
+            if support.attached {
+                (support.position, support.attached) = (Some(Motion::fixed(self.node_position(*node))), false);
+            }
+            if let SlopeSupport::Attached(direction) = support.slope {
+                support.slope = SlopeSupport::Direction(direction);
             }
         }
-        self.snapshot.state.q.copy_from_slice(shape.positions());
-        self.disturb();
-        Ok(())
+        Cable::from_parts(model, self.snapshot.clone(), crate::Fidelity::default().integrator(f64::INFINITY))
+    }
+
+    /// Takes the shape of a part of this cable, which begins at the node `first`, with the
+    /// directions of clamps to the last bit.
+    pub(super) fn take_shape(&mut self, part: &Cable, first: usize) {
+        let mut q = part.positions().to_vec();
+        for (node, support) in &part.model.supports {
+            if let SlopeSupport::Direction(_) = support.slope {
+                let slope = self.node_slope(first + node).normalize() * part.node_slope(*node).norm();
+                q[6 * node + 3..6 * node + 6].copy_from_slice(slope.as_slice());
+            }
+        }
+        self.snapshot.state.q[6 * first..6 * first + q.len()].copy_from_slice(&q);
     }
 }
 
 /// Returns the turn, as axis times angle, by which one vector gets the direction of another.
-fn turn(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
+pub(super) fn turn(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
     let angle = from.angle(to);
     let axis = from.cross(to).try_normalize(1e-12 * from.norm() * to.norm());
     // half a turn is made about any normal

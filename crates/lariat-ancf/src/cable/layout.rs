@@ -73,18 +73,23 @@ fn segment(a: Vector3<f64>, b: Vector3<f64>, arc: f64, x: f64, sag: Vector3<f64>
         return straight;
     }
     let along = chord.normalize();
-    let mut down = sag - along * sag.dot(&along);
-    if down.norm() <= 1e-6 * sag.norm() || down.norm() == 0.0 {
-        // a vertical segment sags towards any fixed normal
-        let axis = if along.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
-        down = axis - along * axis.dot(&along);
-    }
-    let down = down.normalize();
+    let down = normal_of(&along, &sag);
     let half = half_angle(ratio);
     let radius = 0.5 * arc / half;
     let angle = (2.0 * x - 1.0) * half;
     let position = 0.5 * (a + b) + along * (radius * angle.sin()) + down * (radius * (angle.cos() - half.cos()));
     (position, along * angle.cos() - down * angle.sin())
+}
+
+/// The unit normal of a direction that is nearest to another, or a fixed one of a parallel.
+pub(super) fn normal_of(along: &Vector3<f64>, sag: &Vector3<f64>) -> Vector3<f64> {
+    let mut down = sag - along * sag.dot(along);
+    if down.norm() <= 1e-6 * sag.norm() || down.norm() == 0.0 {
+        // a vertical segment sags towards any fixed normal
+        let axis = if along.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+        down = axis - along * axis.dot(along);
+    }
+    down.normalize()
 }
 
 /// The half angle of an arc whose chord is `ratio` of its length: sin(y)/y = ratio, 0 < y < pi.

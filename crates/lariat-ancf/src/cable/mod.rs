@@ -6,17 +6,23 @@
 //! | `unstrained` | laying it around corners without strain |
 //! | `corner` | corners of the drawn shape, for parts that end there |
 //! | `clamp` | clamps, their directions, and the start shape between them |
+//! | `sag` | the side to which a slack cable is laid |
+//! | `as_laid` | how it was drawn and laid |
+//! | `turned` | parts with a free end, which turn with their clamps |
 //! | `parts`, `check` | what steps it: its parts lent apart, and whether it can be stepped |
 //! | `state`, `snapshot` | reading and changing the state; snapshots |
+//! | `span` | the length by tension or sag |
 //! | `strut` | the bend of a straight cable under compression |
 //! | `supports`, `loads`, `potentials`, `effects` | what acts on it, changed between steps |
 //! | `contact`, `overlap` | what it can touch, and what it touches |
+//! | `prescribe` | points that are led to a place |
 //! | `reel` | reels at the ends, which change the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
 //! | `workspace` | buffers of a step, shared by cables |
 
+mod as_laid;
 pub mod builder;
 mod check;
 mod clamp;
@@ -31,15 +37,19 @@ pub mod mesh;
 mod overlap;
 mod parts;
 mod potentials;
+mod prescribe;
 pub mod reactions;
 mod reel;
+mod sag;
 pub mod sample;
 mod saved;
 mod snapshot;
+mod span;
 mod state;
 mod strut;
 mod supports;
 mod torsion;
+mod turned;
 mod unstrained;
 mod workspace;
 
@@ -53,6 +63,7 @@ use crate::section::Element;
 use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
+use as_laid::{AsDrawn, Sagging};
 pub(crate) use check::check_integrator;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
@@ -97,6 +108,10 @@ pub struct Cable {
     pub(crate) watch: Option<Box<Watch>>,
     /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
     pub(crate) end_noise: f64,
+    /// The shape before parts with free ends turned with their clamps, if they did.
+    as_drawn: Option<Box<AsDrawn>>,
+    /// How it was laid, if it is slack and without clamps.
+    sagging: Option<Box<Sagging>>,
     /// Counts changes of supports, loads, effects and integrator.
     pub(crate) revision: u64,
 }
@@ -127,6 +142,8 @@ impl Cable {
             before: State::default(),
             watch: None,
             end_noise: 0.0,
+            as_drawn: None,
+            sagging: None,
             revision: 0,
             model,
             snapshot,

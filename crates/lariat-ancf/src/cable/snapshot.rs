@@ -4,14 +4,15 @@ use super::reel::Winding;
 use crate::effect::EffectWork;
 use crate::state::State;
 use crate::strength::LoadRecord;
+use crate::support::Prescription;
 use crate::system::System;
 use crate::term::EnergyLaw;
 use serde::{Deserialize, Serialize};
 
 /// Everything that changes while a cable moves, as plain data: clone it, serialise it,
 /// [restore](crate::Cable::restore) it, and the run continues bitwise the same. Not in it: the
-/// description (supports, loads, effects), samples of a flow, and functions of [your
-/// own](crate::ForceDensity), which stay with the cable.
+/// description (supports, but what is [prescribed](crate::Cable::prescribe); loads, effects),
+/// samples of a flow, and functions of [your own](crate::ForceDensity), which stay with the cable.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     pub(crate) state: State,
@@ -30,19 +31,32 @@ pub struct Snapshot {
     /// The reels, by end.
     #[serde(default)]
     pub(crate) windings: [Option<Winding>; 2],
+    /// Points that are led.
+    #[serde(default)]
+    pub(crate) prescribed: Vec<Prescription>,
 }
 
 impl Clone for Snapshot {
     fn clone(&self) -> Self {
-        Snapshot { state: self.state.clone(), ..*self }
+        let Snapshot { state, work, law, inserted_energy, load, windings, prescribed } = self;
+        Snapshot {
+            state: state.clone(),
+            work: *work,
+            law: *law,
+            inserted_energy: *inserted_energy,
+            load: *load,
+            windings: *windings,
+            prescribed: prescribed.clone(),
+        }
     }
 
     /// Copies `other` into the existing vectors.
     fn clone_from(&mut self, other: &Self) {
-        let Snapshot { state, work, law, inserted_energy, load, windings } = other;
+        let Snapshot { state, work, law, inserted_energy, load, windings, prescribed } = other;
         self.state.copy_from(state);
         (self.work, self.law, self.inserted_energy) = (*work, *law, *inserted_energy);
         (self.load, self.windings) = (*load, *windings);
+        self.prescribed.clone_from(prescribed);
     }
 }
 

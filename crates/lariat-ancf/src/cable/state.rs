@@ -30,7 +30,8 @@ impl Cable {
     }
 
     /// Restores a state; the run then continues bitwise as it did from there (if supports, loads,
-    /// effects and integrator are as they were, else from its positions and velocities).
+    /// effects and integrator are as they were, else from its positions and velocities). What is
+    /// [prescribed](Self::prescribe) is restored, too.
     ///
     /// # Errors
     /// [`Error::WrongCount`] if the state is of a cable with another number of nodes,
@@ -49,6 +50,10 @@ impl Cable {
             .try_for_each(|x| require("term of the energy law (J)", x, true, "a number"))
             .map_err(|e| e.of_cable(self.name()))?;
         self.mesh_of_reel(&snapshot, nodes)?;
+        let revision = self.revision;
+        self.restore_prescribed(&snapshot.prescribed)?;
+        // supports are what they were
+        self.revision = revision;
         self.snapshot = snapshot;
         if let Some(watch) = &mut self.watch {
             watch.interrupt();
@@ -171,7 +176,7 @@ impl Cable {
                 SlopeSupport::Prescribed(motion) => Some(motion),
                 _ => None,
             };
-            support.position.iter_mut().chain(slope).for_each(|motion| motion.start += later);
+            support.position.iter_mut().chain(slope).for_each(|motion| motion.delay(later));
         }
         if let Some(torsion) = &mut self.model.effects.torsion {
             torsion.delay(later);

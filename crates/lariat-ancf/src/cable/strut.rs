@@ -17,7 +17,8 @@
 //!
 //! # Validity
 //!
-//! Below the load of its own supports a bent cable straightens again, so the bend does nothing. It
+//! Below the load of its own supports a bent cable straightens again, so the bend does nothing, and
+//! is not made again until the compression is a quarter more, or the cable was under tension. It
 //! changes the energy by less than `2e-12 N L`. It is looked for when a step begins; a cable that
 //! is bent is left after its first elements. The mean is that of a half wave over the whole cable;
 //! waves of compression that run along a taut cable, whose mean is tension, do not bend it.
@@ -32,14 +33,23 @@
 //! the user calls ropes; rods push. A larger bend: it would make or take energy that is seen.
 
 use super::Cable;
-use crate::scales::cable::{BEND, COMPRESSED, UNBENT, WAVES};
+use crate::scales::cable::{BEND, BENT_AGAIN, COMPRESSED, UNBENT, WAVES};
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
+/// A straight cable under compression.
+pub(crate) struct Strut {
+    along: Vector3<f64>,
+    /// Mean shortening over its length.
+    strain: f64,
+}
+
 impl Cable {
-    /// Bends a straight cable along a unit vector.
-    pub(crate) fn bend_strut(&mut self, along: &Vector3<f64>) {
+    /// Bends a straight cable under compression.
+    pub(crate) fn bend_strut(&mut self, strut: &Strut) {
+        self.snapshot.state.memory.bent_at = strut.strain;
+        let along = &strut.along;
         let axis = if along.x.abs() <= along.y.abs() { Vector3::x() } else { Vector3::y() };
         let normal = (axis - along * along.dot(&axis)).normalize();
         let length = self.length();
@@ -61,10 +71,11 @@ impl Cable {
         }
     }
 
-    /// Returns the direction of a cable that is straight, and in the mean compressed beyond its
-    /// Euler load.
-    pub(crate) fn loaded_strut(&self) -> Option<Vector3<f64>> {
-        let part = |at: usize| Vector3::from_column_slice(&self.positions()[at..at + 3]);
+    /// Returns a cable that is straight, in the mean compressed beyond its Euler load, and was not
+    /// bent under such a load before.
+    pub(crate) fn loaded_strut(&mut self) -> Option<Strut> {
+        let q = &self.snapshot.state.q;
+        let part = |at: usize| Vector3::from_column_slice(&q[at..at + 3]);
         let first = part(0);
         let along = (part(6) - first).try_normalize(0.0)?;
         let length = self.length();
@@ -85,9 +96,13 @@ impl Cable {
             bears += section.bending_stiffness * element.length;
             before = position;
         }
-        (shorter > COMPRESSED * length
+        let strain = shorter / length;
+        if strain < 0.0 {
+            self.snapshot.state.memory.bent_at = 0.0;
+        }
+        (strain > COMPRESSED.max(BENT_AGAIN * self.snapshot.state.memory.bent_at)
             && pushed > (PI / (2.0 * length)).powi(2) * bears
             && off(part(3)).amax() <= least)
-            .then_some(along)
+            .then_some(Strut { along, strain })
     }
 }

@@ -24,6 +24,7 @@ impl Cable {
     pub fn set_support(&mut self, at: impl Into<At>, support: Support) -> Result<(), Error> {
         let node = self.node(at)?;
         support.check().map_err(|e| e.of_cable(self.name()))?;
+        self.snapshot.prescribed.retain(|led| led.node != node);
         let mut support = support;
         if let SlopeSupport::Direction(d) = &mut support.slope {
             d.normalize_mut();
@@ -66,6 +67,7 @@ impl Cable {
         if support.position.is_none() || !motion.is_finite() {
             return self.set_support(At::Node(node), new);
         }
+        self.snapshot.prescribed.retain(|led| led.node != node);
         self.model.set_support(node, new);
         let time = self.snapshot.state.time;
         let [now, then] = [motion.at(time), support.position.unwrap_or(motion).at(time)];

@@ -107,6 +107,26 @@ pub trait Coupling {
     /// [`Error::InvalidValue`] for a direction that is zero or not finite.
     fn attach_clamped(&mut self, at: impl Into<At>, along: Option<Vector3<f64>>) -> Result<usize, Error>;
 
+    /// Returns where a node was drawn, if its part of the cable has a free end and has
+    /// [turned](Cable::clamp_along) with its clamp since, and nothing else has happened.
+    fn drawn_position(&self, at: impl Into<At>) -> Option<Vector3<f64>>;
+
+    /// Lays a node back to its [drawn position](Self::drawn_position), with its part of the cable
+    /// bent in equilibrium, before something is attached there.
+    ///
+    /// # Errors
+    /// As [`node`](Cable::node).
+    fn lay_as_drawn(&mut self, at: impl Into<At>) -> Result<(), Error>;
+
+    /// Returns whether it is slack and as it was laid, so that its arcs
+    /// [can be turned](Self::turn_slack).
+    fn can_turn_slack(&self) -> bool;
+
+    /// Lays the arcs of a slack cable anew, turned by an angle (rad) about the line from its first
+    /// to its last point, from the side to which they sag under gravity. Returns whether it has
+    /// done so: the cable must be as it was built, without clamps, and held at drawn points alone.
+    fn turn_slack(&mut self, angle: f64) -> bool;
+
     /// Frees a node that was attached: its position, and its tangent if that was clamped to the
     /// body.
     ///
@@ -257,6 +277,22 @@ impl Coupling for Cable {
 
     fn attach_clamped(&mut self, at: impl Into<At>, along: Option<Vector3<f64>>) -> Result<usize, Error> {
         Cable::attach_clamped(self, at, along)
+    }
+
+    fn drawn_position(&self, at: impl Into<At>) -> Option<Vector3<f64>> {
+        Cable::drawn_position(self, at.into())
+    }
+
+    fn lay_as_drawn(&mut self, at: impl Into<At>) -> Result<(), Error> {
+        Cable::lay_as_drawn(self, at.into())
+    }
+
+    fn can_turn_slack(&self) -> bool {
+        Cable::can_turn_slack(self)
+    }
+
+    fn turn_slack(&mut self, angle: f64) -> bool {
+        Cable::turn_slack(self, angle)
     }
 
     fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {

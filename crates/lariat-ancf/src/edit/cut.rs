@@ -18,6 +18,7 @@ use crate::effect::Cut;
 use crate::error::Error;
 use crate::state::{Memory, SegmentTwist, State};
 use crate::strength::LoadRecord;
+use crate::support::Prescription;
 
 impl Cable {
     /// Cuts the cable at a point: this one keeps the part before it, the rest is returned. A
@@ -76,11 +77,14 @@ impl Cable {
             state: part(&state.q[..end], &state.v[..end], 0),
             windings: [at_start, None],
             load: LoadRecord::default(),
+            prescribed: self.snapshot.prescribed.iter().filter(|led| led.node <= node).copied().collect(),
             ..self.snapshot.clone()
         };
         let windings = [None, at_end];
-        let tail_state =
+        let mut tail_state =
             Snapshot { state: part(&state.q[begin..], &state.v[begin..], node), windings, ..Snapshot::default() };
+        let led = self.snapshot.prescribed.iter().filter(|led| led.node > node);
+        tail_state.prescribed = led.map(|led| Prescription { node: led.node - node, ..*led }).collect();
         let mut tail = Cable::from_parts(tail, tail_state, self.integrator)?;
         tail.set_watched(self.is_watched());
         let mut head = Cable::from_parts(head, head_state, self.integrator)?;

@@ -76,6 +76,7 @@ impl Cable {
             let [r, t] = [shape::position, shape::slope].map(|of| combine(x, e, &of(xi, whole.length)));
             x.splice(6 * node..6 * node, r.iter().chain(t.iter()).copied());
         };
+        snapshot.prescribed.iter_mut().filter(|led| led.node >= node).for_each(|led| led.node += 1);
         let State { q, v, memory, .. } = &mut snapshot.state;
         cut(q);
         cut(v);

@@ -33,7 +33,8 @@ pub struct Island {
 /// Coordinates of cables that a step bent, as they were before it.
 #[derive(Clone, Debug, Default)]
 struct Straight {
-    cables: Vec<usize>,
+    /// With the strain at which they were bent before.
+    cables: Vec<(usize, f64)>,
     q: Vec<f64>,
 }
 
@@ -43,20 +44,22 @@ impl Straight {
         self.cables.clear();
         self.q.clear();
         for (i, cable) in cables.iter_mut().enumerate() {
-            let Some(along) = cable.loaded_strut() else { continue };
-            self.cables.push(i);
+            cable.stop_ended();
+            let Some(strut) = cable.loaded_strut() else { continue };
+            self.cables.push((i, cable.snapshot.state.memory.bent_at));
             self.q.extend(cable.positions());
-            cable.bend_strut(&along);
+            cable.bend_strut(&strut);
         }
     }
 
     /// Makes them straight again, as a step that failed leaves them.
     fn put_back(&self, cables: &mut [&mut Cable]) {
         let mut q = self.q.as_slice();
-        for &i in &self.cables {
-            let own = &mut cables[i].snapshot.state.q;
+        for &(i, bent_at) in &self.cables {
+            let State { q: own, memory, .. } = &mut cables[i].snapshot.state;
             let (first, rest) = q.split_at(own.len());
             own.copy_from_slice(first);
+            memory.bent_at = bent_at;
             q = rest;
         }
     }

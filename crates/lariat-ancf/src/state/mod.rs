@@ -61,6 +61,10 @@ pub struct Memory {
     /// [`Cable::set_least_damping`](crate::coupling::Coupling::set_least_damping).
     #[serde(default)]
     pub least_damping: f64,
+    /// Mean compressive strain at which a straight cable was bent last; zero since it was under
+    /// tension.
+    #[serde(default)]
+    pub bent_at: f64,
 }
 
 fn coherent() -> f64 {
@@ -84,6 +88,7 @@ impl Default for Memory {
             pairs: Vec::new(),
             torsion: None,
             least_damping: 0.0,
+            bent_at: 0.0,
         }
     }
 }
@@ -120,6 +125,7 @@ impl State {
             pairs,
             torsion,
             least_damping,
+            bent_at,
         } = memory;
         self.time = *time;
         self.q.clone_from(q);
@@ -138,6 +144,7 @@ impl State {
         self.memory.pairs.clone_from(pairs);
         self.memory.torsion.clone_from(torsion);
         self.memory.least_damping = *least_damping;
+        self.memory.bent_at = *bent_at;
     }
 
     /// Moves the state rigidly: turned about the origin, then displaced by `by` (m). What the

@@ -52,8 +52,9 @@ impl Cable {
 
     fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         self.before.copy_from(&self.snapshot.state);
-        if let Some(along) = self.loaded_strut() {
-            self.bend_strut(&along);
+        self.stop_ended();
+        if let Some(strut) = self.loaded_strut() {
+            self.bend_strut(&strut);
         }
         self.refresh_memory();
         self.begin_accounts();

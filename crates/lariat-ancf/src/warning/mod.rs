@@ -42,6 +42,16 @@ pub enum Warning {
         /// Number of elements that would do.
         enough: usize,
     },
+    /// There are obstacles, but no effect by which they are touched.
+    #[error(
+        "cable {cable:?}: it has {count} obstacles and no effect Contact, so it touches none: give it one, or no obstacles"
+    )]
+    UntouchedObstacles {
+        /// Name of the cable.
+        cable: String,
+        /// Number of obstacles.
+        count: usize,
+    },
     /// The elements are too long for a small motion of a cable whose shape is resolved.
     #[error(
         "cable {cable:?}: the mesh with elements = {elements} is probably off by {error_m:.1e} m, where the largest displacement is \

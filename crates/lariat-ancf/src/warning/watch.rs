@@ -19,7 +19,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 15] = [
+const LAWS: [(Law, bool); 16] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -35,10 +35,11 @@ const LAWS: [(Law, bool); 15] = [
     (|_, cable, _| unseen_load(cable), true),
     (|_, cable, _| unresolved(cable), true),
     (Watch::twist, true),
+    (|_, cable, _| untouched(cable), true),
 ];
 
 /// Layout: the bit of warnings about sizes.
-const SIZES: u16 = 1 << 15;
+const SIZES: u32 = 1 << 16;
 
 impl Watch {
     /// Begins with a cable as it is: displacements are counted from there.
@@ -101,7 +102,7 @@ impl Watch {
 
     /// Returns the laws that are due beyond those that are `known`, by bit, and calls `tell` with
     /// their warnings.
-    fn due(&self, cable: &Cable, known: u16, mut tell: impl FnMut(Warning)) -> u16 {
+    fn due(&self, cable: &Cable, known: u32, mut tell: impl FnMut(Warning)) -> u32 {
         let mut new = 0;
         if known & SIZES == 0 {
             new |= SIZES;
@@ -220,6 +221,12 @@ impl Watch {
             Verdict::Lost(time_s, lost_j, scale_j) => Warning::EnergyLost { cable: cable(), time_s, lost_j, scale_j },
         })
     }
+}
+
+fn untouched(cable: &Cable) -> Option<Warning> {
+    let count = cable.obstacles().len();
+    let name = || cable.name().to_string();
+    (count > 0 && cable.effects().contact.is_none()).then(|| Warning::UntouchedObstacles { cable: name(), count })
 }
 
 impl Cable {
