@@ -315,4 +315,16 @@ pub(crate) mod set {
     /// Unknown: why this much; a [`Cable`](lariat_ancf::Cable) of one's own has what its builder is
     /// given.
     pub const ROPE_DAMPING: f64 = 0.2;
+
+    /// Planes in which a slack cable is looked for beside the bodies that it is tied to. Derived:
+    /// 15 degrees apart, so that a box is missed by less than a thirtieth of its size.
+    pub(crate) const PLANES: usize = 24;
+
+    /// Share of its length by which one plane must be clearer than another. Derived: beyond
+    /// rounding, so that of planes that are alike the first is taken.
+    pub(crate) const SAME_CLEARANCE: f64 = 1e-6;
+
+    /// Points per element at which its distance from bodies is measured. Unknown: as for those that
+    /// are looked for in colliders.
+    pub(crate) const SAMPLES: usize = 4;
 }

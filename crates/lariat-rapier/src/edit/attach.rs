@@ -28,6 +28,7 @@ pub(crate) fn attach(
         return Err(Error::DirectionOfBall);
     }
     let rigid = check(contents, world, (cable, at), (body, anchor), gap)?;
+    lay_as_drawn(contents, (cable, at), &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
     let node = free_node(contents, cable, at)?;
     let attached = contents.cable_mut(cable)?;
     let arc_length = attached.node_arc_lengths()[node];
@@ -143,9 +144,30 @@ pub(crate) fn check<'a>(
     }
     check_free(contents, cable, at)?;
     let existing = contents.cable(cable)?;
+    let target = vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor;
     let point = existing.sample(existing.arc_length(at)?)?.position;
-    gap.check(existing, &point, &(vector(rigid.translation()) + rotation(*rigid.rotation()) * anchor))?;
+    let now = gap.check(existing, &point, &target);
+    match existing.drawn_position(at) {
+        Some(drawn) if is_nearer(&drawn, &point, &target) => gap.check(existing, &drawn, &target)?,
+        _ => now?,
+    }
     Ok(rigid)
+}
+
+/// Lays an end that turned with a clamp back where it was drawn, if that is nearer to a point of a
+/// body.
+fn lay_as_drawn(contents: &mut Contents, (cable, at): (CableHandle, At), target: &Vector3<f64>) -> Result<(), Error> {
+    let existing = contents.cable(cable)?;
+    let Some(drawn) = existing.drawn_position(at) else { return Ok(()) };
+    let point = existing.sample(existing.arc_length(at)?)?.position;
+    if is_nearer(&drawn, &point, target) {
+        contents.cable_mut(cable)?.lay_as_drawn(at)?;
+    }
+    Ok(())
+}
+
+fn is_nearer(one: &Vector3<f64>, other: &Vector3<f64>, target: &Vector3<f64>) -> bool {
+    (one - target).norm() < (other - target).norm()
 }
 
 /// Checks that no attachment and no junction has the node at a point of a cable.

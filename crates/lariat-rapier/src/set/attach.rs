@@ -1,6 +1,6 @@
 //! Attaching the cables of a set to bodies, and tying them to each other.
 
-use super::CableSet;
+use super::{CableSet, slack};
 use crate::contents::attachment::{Attachment, AttachmentOptions, Gap};
 use crate::contents::junction::Junction;
 use crate::edit::{attach, join, movement, world_mark};
@@ -17,7 +17,8 @@ impl CableSet {
     /// `kind.with_gap(..)` says ([`Gap`](crate::Gap)); a clamp keeps the angle that tangent and
     /// body have now, or holds the tangent in a [direction](crate::AttachmentKind::along): a cable
     /// at rest at time 0 takes the shape of equilibrium between its clamps. At an end of a slack
-    /// cable as it was laid, the direction is that of the drawing.
+    /// cable as it was laid, the direction is that of the drawing. A slack cable with contact that
+    /// was laid through a body that it is attached to is laid beside it, if there is room.
     ///
     /// # Errors
     /// [`Error::NoCable`], [`Error::NoBody`], [`Error::AlreadyAttached`],
@@ -32,7 +33,10 @@ impl CableSet {
         anchor: impl Into<Point>,
         kind: impl Into<AttachmentOptions>,
     ) -> Result<AttachmentHandle, Error> {
-        attach::attach(&mut self.contents, world, (cable, at.into()), (body, anchor.into().0), kind.into())
+        let point = (cable, at.into());
+        let made = attach::attach(&mut self.contents, world, point, (body, anchor.into().0), kind.into())?;
+        slack::draw_outside(&mut self.contents, world, cable)?;
+        Ok(made)
     }
 
     /// As [`attach`](Self::attach), to the point of the body where the point of the cable is now.
@@ -49,7 +53,9 @@ impl CableSet {
     ) -> Result<AttachmentHandle, Error> {
         let point = (cable, at.into());
         let anchor = attach::anchor_here(&self.contents, world, point, body)?;
-        attach::attach(&mut self.contents, world, point, (body, anchor), kind.into())
+        let made = attach::attach(&mut self.contents, world, point, (body, anchor), kind.into())?;
+        slack::draw_outside(&mut self.contents, world, cable)?;
+        Ok(made)
     }
 
     /// Moves bodies by a rigid motion in world axes, with the cables that are attached to them and

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | this one | making a set, adding, changing and removing cables, statics |
 //! | [`attach`] | attachments and junctions |
+//! | [`slack`] | slack cables beside the bodies that they are tied to |
 //! | [`contact`] | what cables may touch |
 //! | [`reel`] | drums and sheaves |
 //! | [`step`] | host steps |
@@ -16,6 +17,7 @@ mod contact;
 mod read;
 mod reel;
 pub(crate) mod rope;
+mod slack;
 mod step;
 
 use crate::contents::Contents;

@@ -1,6 +1,6 @@
 //! Host steps of a set: the part of its interface that advances it.
 
-use super::CableSet;
+use super::{CableSet, slack};
 use crate::contact;
 use crate::edit::{breaking, world_mark};
 use crate::error::Error;
@@ -53,6 +53,7 @@ impl CableSet {
     /// which stay as they are.
     pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
         world_mark::check(&mut self.contents, world)?;
+        slack::draw_all_outside(&mut self.contents, world)?;
         step::begin(&mut self.stepper, &mut self.contents, world, &self.settings)
     }
 

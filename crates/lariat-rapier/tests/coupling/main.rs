@@ -31,6 +31,7 @@ mod restitution;
 mod ropes;
 mod sheaves;
 mod single_precision;
+mod slack;
 mod sleep;
 mod statics;
 mod substepping;

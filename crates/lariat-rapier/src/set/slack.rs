@@ -1,0 +1,105 @@
+//! Slack cables that are drawn beside the bodies that they are tied to.
+//!
+//! # Equation
+//!
+//! A cable with contact that is laid in arcs, and runs through a collider of a body that it is
+//! attached to, is turned about the line between its ends: of 24 planes it takes the one in which
+//! the least distance of its centre line from all that it can touch is largest, the nearest to the
+//! plane of gravity of several.
+//!
+//! # Validity
+//!
+//! A cable at rest as it was built, without clamps. One that runs through a body in every plane
+//! stays as it is laid, and [`Warning::InCollider`](crate::Warning::InCollider) tells.
+//!
+//! # References
+//!
+//! None.
+//!
+//! # Alternatives considered
+//!
+//! Refusing it: most ropes on crates begin so.
+
+use crate::contact::broad::held_pieces;
+use crate::contents::Contents;
+use crate::convert::{to_vector, vector};
+use crate::error::Error;
+use crate::handle::CableHandle;
+use crate::read::inside::deepest_beside;
+use crate::scales::set::{PLANES, SAME_CLEARANCE, SAMPLES};
+use lariat_ancf::Cable;
+use lariat_ancf::coupling::Coupling;
+use nalgebra::Vector3;
+use rapier::geometry::Collider;
+use rapier::pipeline::PhysicsWorld;
+use std::f64::consts::TAU;
+
+/// A collider that a cable can touch, and the pieces of the cable that do not touch it.
+struct Near<'a> {
+    collider: &'a Collider,
+    except: Vec<[f64; 2]>,
+    own: bool,
+}
+
+/// Turns the slack cables that have not moved yet out of the bodies that they are attached to:
+/// contact may have been given after the attachment.
+pub(super) fn draw_all_outside(contents: &mut Contents, world: &PhysicsWorld) -> Result<(), Error> {
+    (0..contents.cables.len()).try_for_each(|cable| draw_outside(contents, world, CableHandle(cable as u32)))
+}
+
+/// Turns a slack cable out of the bodies that it is attached to, if it runs through one.
+pub(super) fn draw_outside(contents: &mut Contents, world: &PhysicsWorld, handle: CableHandle) -> Result<(), Error> {
+    let Some(slot) = contents.cables.get(handle.0 as usize) else { return Ok(()) };
+    if slot.cable.effects().contact.is_none() || !slot.cable.can_turn_slack() {
+        return Ok(());
+    }
+    let radius = slot.cable.contact_radius();
+    let touched = world.colliders.iter().map(|(_, c)| c).filter(|c| !c.is_sensor() && slot.rules.allow(c));
+    let near: Vec<Near<'_>> = touched
+        .map(|collider| {
+            let own = contents.attachments.values().any(|a| a.cable == handle && Some(a.body) == collider.parent());
+            let inside = |x: &Vector3<f64>| -f64::from(collider.shape().distance_to_local_point(to_vector(x), false));
+            let except = held_pieces(contents, handle, collider, radius, inside);
+            Near { collider, except, own }
+        })
+        .collect();
+    let own = |near: &&Near<'_>| near.own;
+    let runs_through = |cable: &Cable, near: &Near<'_>| deepest_beside(cable, near.collider, &near.except).is_some();
+    if !near.iter().filter(own).any(|near| runs_through(&slot.cable, near)) {
+        return Ok(());
+    }
+    let mut best: Option<(f64, Cable)> = None;
+    for plane in 0..PLANES {
+        // 0, 1, -1, 2, -2 ...
+        let turn = if plane % 2 == 0 { -(plane as f64) / 2.0 } else { (plane as f64 + 1.0) / 2.0 };
+        let mut cable = slot.cable.clone();
+        if !cable.turn_slack(turn * TAU / PLANES as f64) || near.iter().any(|near| runs_through(&cable, near)) {
+            continue;
+        }
+        let clear = clearance(&cable, &near);
+        // of planes that are equal but for rounding, the first
+        if best.as_ref().is_none_or(|(most, _)| clear > most + SAME_CLEARANCE * cable.length()) {
+            best = Some((clear, cable));
+        }
+    }
+    let Some((_, cable)) = best else { return Ok(()) };
+    *contents.cable_mut(handle)? = cable;
+    Ok(())
+}
+
+/// Returns the least distance in m of a cable from what it can touch; negative inside.
+fn clearance(cable: &Cable, near: &[Near<'_>]) -> f64 {
+    let count = SAMPLES * cable.elements().len();
+    let places = (0..=count).map(|k| cable.length() * k as f64 / count as f64);
+    let mut least = f64::INFINITY;
+    for s in places {
+        let Ok(sample) = cable.sample(s) else { continue };
+        for near in near.iter().filter(|near| !near.except.iter().any(|[from, to]| (from..=to).contains(&&s))) {
+            let surface =
+                near.collider.shape().project_point(near.collider.position(), to_vector(&sample.position), false);
+            let distance = (vector(surface.point) - sample.position).norm();
+            least = least.min(if surface.is_inside { -distance } else { distance });
+        }
+    }
+    least
+}
