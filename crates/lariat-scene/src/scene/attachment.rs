@@ -57,7 +57,7 @@ table! {
         /// `"ball"` holds the position, `"clamp"` the direction of the tangent, too.
         kind: AttachmentKind = "ball", Kind::Choice(AttachmentKind::names);
         /// Direction of the tangent at a clamp, towards growing arc length, of any size, in the axes of the body or the world. A slack
-        /// cable, or one that is turned, starts in static equilibrium between its clamps, its free ends held where they are drawn.
+        /// cable, or one that is turned, starts in static equilibrium between what holds it; a part with a free end turns with its clamp.
         direction: Option<Vector3<f64>> = ("of the drawn polyline there"), VECTOR;
     }
 }
