@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Strength {
-    /// Largest tension in N. Default: none.
+    /// Largest tension in N: the elastic one, without that of damping. Default: none.
     pub tension: Option<f64>,
     /// Largest strain, stretch over rest stretch less 1. Default: none.
     pub strain: Option<f64>,
@@ -94,8 +94,11 @@ pub struct Load {
     pub cause: BreakCause,
     /// Arc length in m.
     pub arc_length: f64,
-    /// Tension in N.
+    /// Tension in N: the elastic one, without that of damping.
     pub tension: f64,
+    /// Tension of damping in N beside it, which does not count.
+    #[serde(default)]
+    pub damping: f64,
     /// Strain, stretch over rest stretch less 1.
     pub strain: f64,
     /// Time in s.
@@ -106,7 +109,7 @@ impl Default for Load {
     /// None.
     fn default() -> Self {
         let share = f64::NEG_INFINITY;
-        Load { share, cause: BreakCause::Tension, arc_length: 0.0, tension: 0.0, strain: 0.0, time: 0.0 }
+        Load { share, cause: BreakCause::Tension, arc_length: 0.0, tension: 0.0, damping: 0.0, strain: 0.0, time: 0.0 }
     }
 }
 
@@ -140,10 +143,10 @@ pub(crate) struct LoadRecord {
     origin: f64,
     /// Times in s and shares of the last two readings.
     recent: [Option<[f64; 2]>; 2],
-    /// Of a part of a cable that broke: the share that it had then, and the time in s by which the
-    /// wave of the break has run through it.
+    /// Of a part of a cable that broke: the share that it had then, that time in s, and the one by
+    /// which the wave of the break has run through it.
     #[serde(default)]
-    known: Option<[f64; 2]>,
+    known: Option<[f64; 3]>,
     /// What no reading saw, if that is above the limit.
     unseen: Option<Unseen>,
 }
@@ -188,16 +191,22 @@ impl LoadRecord {
         }
     }
 
-    /// Begins that of a part of a cable that broke, under a load of this share: that is not new
-    /// until the wave of the break has run through, at `until` (s).
-    pub fn of_part(share: f64, until: f64) -> Self {
-        LoadRecord { known: Some([share, until]), ..LoadRecord::default() }
+    /// Begins that of a part of a cable that broke at a time (s), under a load of this share: that
+    /// is not new until the wave of the break has run through, at `until` (s).
+    pub fn of_part(share: f64, [time, until]: [f64; 2]) -> Self {
+        LoadRecord { known: Some([share, time, until]), ..LoadRecord::default() }
     }
 
     /// Returns whether a load is that which a part had when its cable broke, and which the break
     /// has not yet relieved.
     pub fn is_known(&self, load: &Load) -> bool {
-        self.known.is_some_and(|[share, until]| load.share <= share * (1.0 + KNOWN) && load.time < until)
+        self.known.is_some_and(|[share, _, until]| load.share <= share * (1.0 + KNOWN) && load.time < until)
+    }
+
+    /// Returns whether a load is known, and the part has moved since: one that is asked again at
+    /// the very time of the break may break again.
+    pub fn is_passing(&self, load: &Load) -> bool {
+        self.is_known(load) && self.known.is_some_and(|[_, time, _]| load.time > time)
     }
 
     /// Forgets the readings between which the load is judged, because a program changes the state.
@@ -229,9 +238,12 @@ pub struct Break {
     pub cause: BreakCause,
     /// Arc length of the break in m, unstretched: the new length of the part before it.
     pub arc_length: f64,
-    /// Largest tension in N since the cable was compared with its limits last; of a cut, the
-    /// tension at it.
+    /// Largest elastic tension in N since the cable was compared with its limits last; of a cut,
+    /// the whole tension at it.
     pub tension: f64,
+    /// Tension of damping in N that was there at that time, too, and does not count; zero for a
+    /// cut.
+    pub damping: f64,
     /// Strain there, stretch over rest stretch less 1.
     pub strain: f64,
     /// Time in s of that load, which may lie within the last host step; of a cut, that of the cut.

@@ -1,10 +1,13 @@
 //! A cable that breaks by its load, and what its parts keep.
 
 use approx::assert_relative_eq;
+use lariat_ancf::coupling::Coupling;
+use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Break, BreakCause, Cable, Damping, Energy, Error, Fidelity, PointLoad, RestPiece, RestShape, Section, Strength,
     Vector3,
 };
+use nalgebra::Matrix3;
 
 const STEP: f64 = 1.0 / 240.0;
 
@@ -143,4 +146,51 @@ fn limits_that_make_no_sense_are_typed_errors_and_change_nothing() {
     assert_relative_eq!(how.arc_length, 0.5, epsilon = 1e-12);
     assert!(cable.break_overloaded().unwrap().is_none());
     assert_relative_eq!(rest.break_overloaded().unwrap().unwrap().1.arc_length, 0.5, epsilon = 1e-12);
+}
+
+/// A mass is caught by a rope of any stiffness, at any speed and damping: the rope breaks at the strain at which the elastic tension reaches the
+/// limit, with what damping bears beside it told apart.
+///
+/// *Source.* The law of the material, T = EA e (1 + e)(1 + e/2). What it may exceed the limit by: the strain that grows in a step, and a wave that
+/// comes back from the fixed end, twice v sqrt(EA m).
+#[test]
+fn a_rope_breaks_at_one_strain_however_it_is_damped() {
+    for (stiffness, mass, speed) in [(1e4, 80.0, 6.0), (1e5, 80.0, 6.0), (5e5, 500.0, 4.0)] {
+        for damping in [0.0, 1e-3, 1e-2] {
+            let (length, line) = (4.0, 0.06);
+            let mut rope = Cable::builder()
+                .points([Vector3::zeros(), Vector3::new(0.0, -length, 0.0)])
+                .section(Section::from_stiffness(stiffness, 1e-3, line).unwrap())
+                .elements(8)
+                .damping(Damping { axial: damping, bending: 0.0 })
+                .fidelity(Fidelity::Game)
+                .fix(At::Start)
+                .build()
+                .unwrap();
+            rope.attach(At::End).unwrap();
+            let limit = 0.05 * stiffness;
+            rope.set_strength(limit).unwrap();
+            let mut body = RigidBody::new(mass, Matrix3::identity(), Vector3::new(0.0, -length, 0.0)).unwrap();
+            body.velocity = Vector3::new(0.0, -speed, 0.0);
+            body.force = Vector3::new(0.0, -9.81 * mass, 0.0);
+            let (mut island, integrator, host) = (Island::default(), rope.integrator(), 1e-3);
+            let pin = PinConstraint { cable: 0, node: 8, body: 0, anchor: Vector3::zeros(), direction: None };
+            let mut bodies = [body];
+            let mut step = || {
+                island.step(&mut [&mut rope], &mut bodies, &[pin], integrator, host).unwrap();
+                rope.break_overloaded().unwrap()
+            };
+            let (_, how) = (0..600).find_map(|_| step()).expect("a rope that breaks");
+            let case = format!("EA {stiffness:.0e} N, {mass} kg at {speed} m/s, {damping} s: {how:?}");
+            let e = how.strain;
+            let elastic = stiffness * e * (1.0 + e) * (1.0 + 0.5 * e);
+            println!("{case}");
+            assert!((how.tension / elastic - 1.0).abs() < 0.02, "{case}");
+            let above = 2.0 * speed * (stiffness * line).sqrt() + 2.0 * stiffness * speed / length * host;
+            assert!((limit..limit + above).contains(&how.tension), "{case}: at most {above} N above {limit}");
+            let rate = speed / length;
+            assert!(how.damping.abs() <= 4.0 * stiffness * damping * rate + 1e-9, "{case}");
+            assert_eq!(how.damping == 0.0, damping == 0.0, "{case}");
+        }
+    }
 }

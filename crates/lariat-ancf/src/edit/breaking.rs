@@ -2,9 +2,10 @@
 //!
 //! # Equation
 //!
-//! Tension and strain are read at both ends of every element, as [`Cable::sample`] reads them; the
-//! strain is `f/f_0 - 1`, f the stretch of the projected Green strain and f_0 the rest stretch. The
-//! cable breaks at the inner node nearest to the reading that exceeds its limit most.
+//! Tension and strain are read at both ends of every element, as [`Cable::sample`] reads them but
+//! without the tension of damping; the strain is `f/f_0 - 1`, f the stretch of the projected Green
+//! strain and f_0 the rest stretch. The cable breaks at the inner node nearest to the reading that
+//! exceeds its limit most.
 //!
 //! # Validity
 //!
@@ -71,14 +72,17 @@ impl Cable {
         if !strength.is_limited() {
             return Ok(None);
         }
-        let Some(load) = self.peak_load().filter(|load| load.share > 1.0) else {
+        // of what a part has had since its cable broke, only what is its own counts
+        let is_own = |load: &Load| load.share > 1.0 && !self.snapshot.load.is_passing(load);
+        let Some(load) = self.peak_load().filter(is_own).or_else(|| self.snapshot.load.worst().filter(is_own)) else {
             self.snapshot.load.take();
             return Ok(None);
         };
         self.snapshot.load.take();
         let Some(arc_length) = self.inner_node(load.arc_length) else { return Ok(None) };
-        let Load { cause, tension, strain, time, .. } = load;
-        let (mut rest, how) = self.part(arc_length, |cable| Break { cause, tension, strain, time, ..cable })?;
+        let Load { cause, tension, damping, strain, time, .. } = load;
+        let (mut rest, how) =
+            self.part(arc_length, |cable| Break { cause, tension, damping, strain, time, ..cable })?;
         [self, &mut rest].into_iter().for_each(Cable::know_load);
         Ok(Some((rest, how)))
     }
@@ -89,7 +93,7 @@ impl Cable {
         let load = self.reading().largest_load(self.strength());
         let passing = |e: &Element| e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt();
         let until = load.time + self.elements().iter().map(passing).sum::<f64>();
-        self.snapshot.load = LoadRecord::of_part(load.share, until);
+        self.snapshot.load = LoadRecord::of_part(load.share, [load.time, until]);
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).
@@ -126,6 +130,7 @@ impl Cable {
             cause: BreakCause::Cut,
             arc_length: self.length(),
             tension,
+            damping: 0.0,
             strain,
             time: self.time(),
             strain_energy: energy.axial + energy.bending + energy.torsion,

@@ -29,8 +29,11 @@ pub struct Parted {
     /// Time in s of the load, within the last host step.
     #[serde(default)]
     pub load_time_s: f64,
-    /// Largest tension in N in the last host step; of a cut, the tension there.
+    /// Largest elastic tension in N in the last host step; of a cut, the whole tension there.
     pub tension_n: f64,
+    /// Tension of damping in N beside it, which does not count.
+    #[serde(default)]
+    pub damping_tension_n: f64,
     /// Strain there.
     pub strain: f64,
     /// Strain energy in J of both parts at the break.
@@ -49,6 +52,7 @@ impl Parted {
             arc_length_m: from + how.arc_length,
             load_time_s: how.time,
             tension_n: how.tension,
+            damping_tension_n: how.damping,
             strain: how.strain,
             strain_energy_j: how.strain_energy,
             inserted_energy_j: how.inserted_energy,

@@ -10,7 +10,7 @@ table! {
     /// When a cable becomes two: above a tension or strain, compared at host times, at the inner node nearest to the largest load; or by
     /// a cut. Attachments, loads, effects and probes stay with their part; both parts keep the limits.
     struct BreakTable("[cable.break]") {
-        /// Largest tension.
+        /// Largest tension, without that of damping.
         tension: Option<f64> = ("no limit"), Kind::Number(POSITIVE), "N";
         /// Largest strain: stretch over rest stretch less 1.
         strain: Option<f64> = ("no limit"), Kind::Number(POSITIVE);
