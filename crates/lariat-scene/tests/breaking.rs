@@ -23,7 +23,8 @@ fn scene(engine: &str, tables: &str) -> Scene {
 /// With and without Rapier a rope breaks where its load reaches the limit: T = (m + rho A L) g + 300 N/s t at the top. Probe and load
 /// behind the break stay with the rest, the support with the part before it.
 ///
-/// *Source.* Statics, within the 4 % that inertia takes (crate and rope still bounce); free fall of what is cut off, under the load.
+/// *Source.* Statics, within the 4 % that inertia takes (crate and rope still bounce); the tension at the host time after it reaches the
+/// limit, by 5 N a host step and what bounces; free fall of what is cut off, under the load.
 #[test]
 fn a_rope_of_a_scene_breaks_at_its_limit_and_probes_stay_with_their_part() {
     for engine in ["none", "rapier"] {
@@ -35,7 +36,7 @@ fn a_rope_of_a_scene_breaks_at_its_limit_and_probes_stay_with_their_part() {
         let hanging = if engine == "rapier" { 5.0 } else { 0.0 } + 0.3 * 2.0;
         let load = hanging * 9.81 + 300.0 * parted.time_s;
         assert!(
-            (load / 200.0 - 1.0).abs() < 0.04 && (parted.tension_n / 200.0 - 1.0).abs() < 0.02,
+            (load / 200.0 - 1.0).abs() < 0.04 && (0.0..1.2 * 300.0 / 60.0).contains(&(parted.tension_n - 200.0)),
             "{load} N {parted:?}"
         );
         assert!(
