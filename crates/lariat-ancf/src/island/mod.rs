@@ -63,6 +63,7 @@ mod velocities;
 pub(crate) use alone::advance as advance_alone;
 pub use body::{BodyMemory, PointForces, RigidBody};
 pub use coupling::CoupledInertia;
+pub use discrete_gradient::terms;
 pub use impedance::Impedance;
 pub use layout::closing_share;
 pub use pin::PinConstraint;

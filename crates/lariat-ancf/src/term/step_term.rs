@@ -43,6 +43,9 @@ pub(crate) enum Settled {
 /// does not say is that of a term that is absent. A pair of terms is a term, so a list of them is
 /// `(A, (B, (C, D)))`, dispatched statically.
 pub(crate) trait StepTerm<S: ?Sized> {
+    /// Adds its name to a list of all, by which tests of all terms ask for it.
+    fn name(names: &mut Vec<&'static str>);
+
     /// Begins a host step.
     fn begin_host_step(_: &mut S) {}
 
@@ -83,6 +86,11 @@ pub(crate) trait StepTerm<S: ?Sized> {
 }
 
 impl<S: ?Sized, A: StepTerm<S>, B: StepTerm<S>> StepTerm<S> for (A, B) {
+    fn name(names: &mut Vec<&'static str>) {
+        A::name(names);
+        B::name(names);
+    }
+
     fn begin_host_step(system: &mut S) {
         A::begin_host_step(system);
         B::begin_host_step(system);

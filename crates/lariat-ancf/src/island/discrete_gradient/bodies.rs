@@ -9,6 +9,10 @@ use crate::term::{Balance, StepStart, StepTerm};
 pub(super) struct Bodies;
 
 impl StepTerm<IslandStep<'_, '_>> for Bodies {
+    fn name(names: &mut Vec<&'static str>) {
+        names.push("bodies");
+    }
+
     fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
         island.buffers.bodies.iter_mut().for_each(|body| body.predict(step.h, step.leg));
     }

@@ -14,6 +14,10 @@ use crate::term::{Account, Balance, StepStart, StepTerm};
 pub(super) struct Cables;
 
 impl StepTerm<IslandStep<'_, '_>> for Cables {
+    fn name(names: &mut Vec<&'static str>) {
+        names.push("cables");
+    }
+
     fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
         for cable in island.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();

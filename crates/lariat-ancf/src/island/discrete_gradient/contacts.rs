@@ -20,6 +20,10 @@ use crate::term::{Account, Balance, Reason, Settled, Stage, StepStart, StepTerm,
 pub(super) struct Contacts;
 
 impl StepTerm<IslandStep<'_, '_>> for Contacts {
+    fn name(names: &mut Vec<&'static str>) {
+        names.push("contacts");
+    }
+
     fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
         island.buffers.rounds = ContactRounds::default();
         for cable in island.cables.iter_mut() {

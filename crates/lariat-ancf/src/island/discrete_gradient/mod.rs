@@ -41,6 +41,7 @@ mod torsion;
 mod twists;
 
 pub(super) use host_step::HostStep;
+pub use terms::terms;
 
 use super::bordered::Bordered;
 use super::coupling::CoupledInertia;

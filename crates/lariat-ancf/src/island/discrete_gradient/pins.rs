@@ -10,6 +10,10 @@ use crate::term::{StepStart, StepTerm};
 pub(super) struct Pins;
 
 impl StepTerm<IslandStep<'_, '_>> for Pins {
+    fn name(names: &mut Vec<&'static str>) {
+        names.push("pins");
+    }
+
     fn begin(island: &mut IslandStep<'_, '_>, _: &StepStart) {
         island.follow();
     }

@@ -16,6 +16,10 @@ use crate::term::{Account, Balance, Reason, Stage, StepStart, StepTerm, Verdict}
 pub(super) struct Reels;
 
 impl StepTerm<IslandStep<'_, '_>> for Reels {
+    fn name(names: &mut Vec<&'static str>) {
+        names.push("reels");
+    }
+
     fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
         for cable in island.cables.iter_mut() {
             let CableStep { mut equations, state, .. } = cable.step_parts();

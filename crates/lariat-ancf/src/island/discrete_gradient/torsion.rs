@@ -41,6 +41,10 @@ use crate::term::{Account, Balance, StepStart, StepTerm};
 pub(super) struct Torsion;
 
 impl StepTerm<IslandStep<'_, '_>> for Torsion {
+    fn name(names: &mut Vec<&'static str>) {
+        names.push("torsion");
+    }
+
     fn begin_host_step(island: &mut IslandStep<'_, '_>) {
         island.find_segments();
     }
