@@ -3,7 +3,7 @@
 use super::common::{G, rope};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
-use lariat_ancf::{At, Cable, Damping, Error, Feed, Integrator, Method, Reel, Section, StepControl, Vector3};
+use lariat_ancf::{At, Cable, Damping, Error, Feed, Fidelity, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;
 
 const GAME: Integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };
@@ -320,6 +320,32 @@ fn bad_motors_are_refused_by_name() {
     cable.add_reel(At::End, Reel::free_spool()).unwrap();
     assert!(matches!(cable.step_with(0.01, &esdirk), Err(Error::ReelMethod { .. })));
     assert!(matches!(cable.set_integrator(esdirk), Err(Error::ReelMethod { .. })));
+}
+
+/// A cable whose fidelity is chosen takes a reel with a motor as it takes contact: engineering then
+/// steps by the discrete gradient to a tolerance, whatever comes first; an integrator that is chosen
+/// by itself stays, and a reel by rate changes none.
+///
+/// *Source.* `Integrator::COUPLED`; the contract of contact.
+#[test]
+fn a_chosen_fidelity_takes_reels_with_a_motor() {
+    let engineering = || {
+        Cable::builder()
+            .points([[0.0; 3], [1.0, 0.0, 0.0]])
+            .section(Section::from_stiffness(1e4, 1e-3, 0.1).unwrap())
+            .fix(At::Start)
+            .fix(At::End)
+    };
+    let mut cable = engineering().fidelity(Fidelity::Engineering).build().unwrap();
+    cable.add_reel(At::End, Reel::with_rate(0.1)).unwrap();
+    assert_eq!(cable.integrator(), Integrator::default());
+    cable.set_reel(At::End, Reel::brake(3.0)).unwrap();
+    assert_eq!(cable.integrator(), Integrator::COUPLED);
+    cable.step(1.0 / 60.0).unwrap();
+    let mut nobody = engineering().build().unwrap();
+    nobody.add_reel(At::End, Reel::free_spool()).unwrap();
+    assert_eq!(nobody.integrator(), Fidelity::Game.integrator(f64::INFINITY));
+    nobody.step(1.0 / 60.0).unwrap();
 }
 
 /// A run that slips continues bitwise from its snapshot.

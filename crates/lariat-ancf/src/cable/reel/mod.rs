@@ -45,6 +45,7 @@ use crate::at::At;
 use crate::effect::RestShape;
 use crate::element::side::Side;
 use crate::error::{Error, require};
+use crate::integrate::{Fidelity, Integrator};
 use crate::model::Model;
 use crate::reel::{Feed, Reel, Reels};
 use crate::system::Source;
@@ -100,13 +101,25 @@ impl Cable {
         model.effects.line_loads.iter_mut().for_each(|loads| loads.extend(length));
         model.reels.add(side, reel, self.elements(), self.number(self.elements().len() - 1));
         model.check_effects().and_then(|()| model.check_loads_at_eyes()).map_err(|e| e.of_cable(self.name()))?;
-        super::check_integrator(&model, &self.integrator().method)?;
+        let integrator = self.integrator_with_reels(&model);
+        super::check_integrator(&model, &integrator.method)?;
         let length = self.elements()[side.element(self.elements().len())].length;
         self.rebuild(model)?;
+        self.integrator = integrator;
         self.snapshot.windings[side as usize] = Some(Winding::new(length));
         self.sync_reel();
         self.revise();
         Ok(())
+    }
+
+    /// Returns the integrator that the cable has with the reels of a model: where their rates are
+    /// unknown and a fidelity chose it, the one that solves for them, as contact has it.
+    fn integrator_with_reels(&self, model: &Model) -> Integrator {
+        match self.integrator() {
+            own if !model.reels.have_laws() || own != Integrator::default() => own,
+            _ if self.default_integrator => self.integrator_for(Fidelity::Game),
+            _ => Integrator::COUPLED,
+        }
     }
 
     /// Changes what the reel at an end does from now on. The rate follows with the acceleration of
@@ -123,10 +136,12 @@ impl Cable {
         };
         let Some(own) = self.model.reels.get_mut(side) else { return Ok(()) };
         let before = core::mem::replace(own, reel);
-        let outcome = super::check_integrator(&self.model, &self.integrator().method);
+        let integrator = self.integrator_with_reels(&self.model);
+        let outcome = super::check_integrator(&self.model, &integrator.method);
         if let (Err(_), Some(own)) = (&outcome, self.model.reels.get_mut(side)) {
             *own = before;
         } else {
+            self.integrator = integrator;
             self.snapshot.windings[side as usize].iter_mut().for_each(|winding| winding.plan = None);
         }
         outcome
