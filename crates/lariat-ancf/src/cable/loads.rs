@@ -82,7 +82,10 @@ impl Cable {
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).
-    pub(crate) fn is_loaded_steadily(&self) -> bool {
-        self.model.loads.iter().all(|load| load.factor(self.time()) == 1.0)
+    pub(crate) fn is_loaded_steadily(&self, h: f64) -> bool {
+        let now = self.time();
+        self.model.loads.iter().all(|load| load.factor(now) == 1.0)
+            && self.model.effects.are_steady(now, now + h)
+            && !self.model.force_densities.depend_on_time()
     }
 }

@@ -156,8 +156,10 @@ pub trait Coupling {
     /// Returns whether no support and no reel moves.
     fn is_held_still(&self) -> bool;
 
-    /// Returns whether all loads are at their full value now, that is no ramp is in progress.
-    fn is_loaded_steadily(&self) -> bool;
+    /// Returns whether what acts on the cable at rest stays the same for a time of `h` (s): all
+    /// loads are at their full value, no flow changes, and no force per length of your own depends
+    /// on time.
+    fn is_loaded_steadily(&self, h: f64) -> bool;
 
     /// Returns the largest load since the cable was compared with its limits last, the present one
     /// included; `None` without a limit.
@@ -315,8 +317,8 @@ impl Coupling for Cable {
         Cable::is_held_still(self)
     }
 
-    fn is_loaded_steadily(&self) -> bool {
-        Cable::is_loaded_steadily(self)
+    fn is_loaded_steadily(&self, h: f64) -> bool {
+        Cable::is_loaded_steadily(self, h)
     }
 
     fn peak_load(&self) -> Option<Load> {

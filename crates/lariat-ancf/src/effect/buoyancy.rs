@@ -80,6 +80,10 @@ impl Effect for Buoyancy {
         false
     }
 
+    fn is_steady(&self, _from: f64, _to: f64) -> bool {
+        true
+    }
+
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
         [Some(*self); 2]
     }

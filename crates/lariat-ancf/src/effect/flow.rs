@@ -53,14 +53,14 @@ pub struct Flow {
     /// Velocity in m/s where the factors are 1.
     pub velocity: Vector3<f64>,
     /// Change with height.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub profile: Option<Profile>,
     /// Time in s and factor, times ascending; empty = constant in time.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub history: Vec<[f64; 2]>,
     /// Velocity in m/s at the nodes, on top of the rest; empty = none. Set by
     /// [`Cable::sample_flow`](crate::Cable::sample_flow).
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub samples: Vec<Vector3<f64>>,
 }
 
@@ -99,6 +99,16 @@ impl Flow {
     /// Returns the velocity where the profile is 1.
     pub(crate) fn in_time(&self, time: f64) -> Vector3<f64> {
         if self.history.is_empty() { self.velocity } else { self.velocity * interpolate(&self.history, time) }
+    }
+
+    /// Returns whether it is the same from one time to another, in s.
+    pub(crate) fn is_steady(&self, from: f64, to: f64) -> bool {
+        if self.history.is_empty() || self.velocity == Vector3::zeros() {
+            return true;
+        }
+        let factor = interpolate(&self.history, from);
+        let between = self.history.iter().filter(|row| from < row[0] && row[0] < to);
+        interpolate(&self.history, to) == factor && between.into_iter().all(|row| row[1] == factor)
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {

@@ -56,6 +56,12 @@ pub trait ForceDensity: Debug + Send + Sync {
     /// Whether the force depends on velocity. If not, [`CablePoint::velocity`] is not always given.
     fn depends_on_velocity(&self) -> bool;
 
+    /// Whether the force depends on time, or on anything else but arc length, position and
+    /// velocity. A cable on which such a force acts never sleeps. Default: it does.
+    fn depends_on_time(&self) -> bool {
+        true
+    }
+
     /// Returns the derivatives of the force. Default: none given, central differences are taken.
     fn derivatives(&self, _at: &CablePoint) -> Option<ForceDerivatives> {
         None
@@ -127,6 +133,10 @@ impl ForceDensities {
 
     pub fn depend_on_velocity(&self) -> bool {
         self.iter().any(|force| force.depends_on_velocity())
+    }
+
+    pub fn depend_on_time(&self) -> bool {
+        self.iter().any(|force| force.depends_on_time())
     }
 
     /// The functions of a part that begins at an arc length (m).

@@ -100,6 +100,10 @@ impl Effect for LineLoads {
         false
     }
 
+    fn is_steady(&self, _from: f64, _to: f64) -> bool {
+        true
+    }
+
     fn cut(&self, cut: Cut<'_>) -> [Option<Self>; 2] {
         let s = cut.arc_length();
         let behind = |load: &LineLoad| {

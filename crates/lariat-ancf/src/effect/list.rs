@@ -96,6 +96,11 @@ macro_rules! generate {
                 false $(|| self.$field.as_ref().is_some_and(Effect::needs_implicit_integrator))*
             }
 
+            /// Whether all forces on a cable at rest are the same from one time to another, in s.
+            pub fn are_steady(&self, from: f64, to: f64) -> bool {
+                true $(&& self.$field.as_ref().is_none_or(|effect| effect.is_steady(from, to)))*
+            }
+
             /// The effects of the two parts of a cable that is cut.
             pub fn cut(&self, cut: Cut<'_>) -> [Effects; 2] {
                 let [mut head, mut tail] = [Effects::default(), Effects::default()];

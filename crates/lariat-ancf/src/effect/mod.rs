@@ -100,6 +100,10 @@ pub trait Effect: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
     /// Whether explicit integrators cannot step it.
     fn needs_implicit_integrator(&self) -> bool;
 
+    /// Whether its force on a cable at rest is the same from one time to another, in s. If not, a
+    /// cable that sleeps wakes up.
+    fn is_steady(&self, from: f64, to: f64) -> bool;
+
     /// The effect on the part before and on the part behind a cut.
     fn cut(&self, cut: Cut<'_>) -> [Option<Self>; 2];
 

@@ -148,6 +148,10 @@ impl Effect for RestShape {
         false
     }
 
+    fn is_steady(&self, _from: f64, _to: f64) -> bool {
+        true
+    }
+
     fn cut(&self, cut: Cut<'_>) -> [Option<Self>; 2] {
         let s = cut.arc_length();
         let before = self.pieces.partition_point(|piece| piece.from <= s).saturating_sub(1);

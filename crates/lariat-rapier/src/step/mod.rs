@@ -336,7 +336,7 @@ fn prepare_island(
     for &cable in &island.cables {
         moved |= finder.gather(contents, world, (cable, island), (motions, step.share, step.h), events)?;
     }
-    prediction.sleep = sleep::update(contents, world, island, moved, step.sleep_speed, events);
+    prediction.sleep = sleep::update(contents, world, island, moved, (step.h, step.sleep_speed), events);
     if prediction.sleep.asleep {
         if !impedance::are_held(contents, island, step.h) {
             impedance::hold(contents, world, island, prediction, step.h, |a| [a.reading.force, a.reading.moment])?;

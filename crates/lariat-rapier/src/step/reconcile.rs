@@ -67,14 +67,14 @@ pub(crate) fn reconcile(
     }
     if !island.members.is_empty() {
         energy::note(contents, world, island, prediction, h);
-        let rests = !prediction.sleep.disturbed && sleep::is_resting(contents, island, sleep_speed);
+        let rests = !prediction.sleep.disturbed && sleep::is_resting(contents, island, (h, sleep_speed));
         read_members(contents, world, island, prediction, (h, rests));
         apply_motor_impulses(contents, island, prediction);
         read_attachments(contents, world, island, prediction, h);
         waking::wake_within_step(contents, world, island, prediction, h);
     }
     kinematic_ends::read(contents, world, island);
-    sleep::keep_awake(contents, world, island, prediction.sleep.disturbed, sleep_speed);
+    sleep::keep_awake(contents, world, island, prediction.sleep.disturbed, (h, sleep_speed));
 }
 
 fn is_sleeping(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {

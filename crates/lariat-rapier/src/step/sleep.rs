@@ -6,10 +6,13 @@
 //! Therefore the time until sleep starts anew as long as a cable or a body of the island is faster
 //! than
 //! [`Settings::sleep_speed`](crate::Settings), the force at an attachment changes by more than
-//! [`STEADY_FORCE_CHANGE`] from its value when that time began, a load ramps, or an end moves.
+//! [`STEADY_FORCE_CHANGE`] from its value when that time began, a load ramps, a flow changes, or an
+//! end moves. A cable on which a force per length of a program depends on time never sleeps.
 //!
 //! An island whose bodies all sleep is not stepped; only its clock advances. It wakes up when one
-//! of its bodies does, an end moves, a cable is modified, or gravity or an attachment changes.
+//! of its bodies does, an end or what it can touch moves, a cable is modified, gravity or an
+//! attachment changes, or what acts on it: each effect says so
+//! ([`Effect::is_steady`](lariat_ancf::effect::Effect::is_steady)).
 //!
 //! Rapier wakes bodies within its step, by rules of which not all can be foreseen from outside.
 //! What it would be given for the prediction that the island rests stands in it meanwhile, as
@@ -38,13 +41,14 @@ pub(crate) struct SleepState {
 }
 
 /// Decides whether an island sleeps through the coming step, and wakes all of it if not.
-/// `ends_moved` tells whether something moves its ends. Bodies slower than `speed` (m/s) may sleep.
+/// `ends_moved` tells whether something moves its ends or what it can touch. Bodies slower than
+/// `speed` (m/s) may sleep, if nothing that acts changes in the step of `h` (s).
 pub(crate) fn update(
     contents: &mut Contents,
     world: &mut PhysicsWorld,
     island: &Island,
     ends_moved: bool,
-    speed: f64,
+    (h, speed): (f64, f64),
     events: &mut Vec<Event>,
 ) -> SleepState {
     let count = island.bodies().count();
@@ -54,7 +58,7 @@ pub(crate) fn update(
         let Some(slot) = contents.cables.get_mut(c) else { continue };
         disturbed |= core::mem::take(&mut slot.modified);
     }
-    let undisturbed = sleeping > 0 && !disturbed && is_quiet(contents, island, speed);
+    let undisturbed = sleeping > 0 && !disturbed && is_quiet(contents, island, (h, speed));
     let asleep = undisturbed && sleeping == count;
     if !asleep {
         release(contents, island);
@@ -90,9 +94,9 @@ pub(crate) fn keep_awake(
     world: &mut PhysicsWorld,
     island: &Island,
     disturbed: bool,
-    speed: f64,
+    (h, speed): (f64, f64),
 ) {
-    if island.bodies().next().is_none() || !disturbed && is_resting(contents, island, speed) {
+    if island.bodies().next().is_none() || !disturbed && is_resting(contents, island, (h, speed)) {
         return;
     }
     for index in island.attachments.iter().flatten() {
@@ -109,9 +113,10 @@ pub(crate) fn keep_awake(
     }
 }
 
-/// Returns whether an island is slower than `speed` (m/s), under forces that do not change.
-pub(crate) fn is_resting(contents: &Contents, island: &Island, speed: f64) -> bool {
-    is_steady(contents, island) && is_quiet(contents, island, speed)
+/// Returns whether an island is slower than `speed` (m/s), under forces that do not change in the
+/// next `h` (s).
+pub(crate) fn is_resting(contents: &Contents, island: &Island, (h, speed): (f64, f64)) -> bool {
+    is_steady(contents, island) && is_quiet(contents, island, (h, speed))
 }
 
 /// Returns whether the forces at the attachments of an island are those at which the time until
@@ -124,8 +129,8 @@ fn is_steady(contents: &Contents, island: &Island) -> bool {
 }
 
 /// Returns whether the cables of an island are slower than `speed` (m/s), their ends held still,
-/// and all loads at their full value.
-fn is_quiet(contents: &Contents, island: &Island, speed: f64) -> bool {
+/// and what acts on them stays the same for `h` (s).
+fn is_quiet(contents: &Contents, island: &Island, (h, speed): (f64, f64)) -> bool {
     let mut cables = island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|slot| &slot.cable);
-    cables.all(|cable| cable.speed() < speed && cable.is_loaded_steadily() && cable.is_held_still())
+    cables.all(|cable| cable.speed() < speed && cable.is_loaded_steadily(h) && cable.is_held_still())
 }

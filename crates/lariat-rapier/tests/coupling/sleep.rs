@@ -2,7 +2,10 @@
 
 use super::common::{add_cube, cable, gap, run, soft, tension};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Damping, Motion, PointLoad, Vector3};
+use lariat_rapier::lariat_ancf::{
+    At, AxialLaw, Buoyancy, CablePoint, Contact, Damping, Drag, Effects, Flow, ForceDensity, GravityScale, LineLoad,
+    Motion, PointLoad, Reel, RestShape, Vector3,
+};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap};
 
@@ -232,5 +235,146 @@ fn a_slow_motion_or_a_slow_ramp_keeps_a_load_awake() {
         set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
         run(&mut world, &mut set, 1200);
         assert!(!set.is_asleep(rope).unwrap(), "ramp: {ramp}");
+    }
+}
+
+/// Returns 10 kg at rest on a rope of 2 m, held by the world, with effects.
+fn hung(effects: Effects) -> (PhysicsWorld, CableSet, RigidBodyHandle, CableHandle) {
+    let mut world = PhysicsWorld::new();
+    let load = add_cube(&mut world, 10.0, 0.1, [0.0, -2.1, 0.0]);
+    let mut set = CableSet::new();
+    let damping = Some(Damping::from_ratio(0.1, 70.0).unwrap());
+    let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).effects(Effects { damping, ..effects });
+    let rope = set.insert(rope.build().unwrap());
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    (world, set, load, rope)
+}
+
+/// Returns an effect of each kind of the list, that acts otherwise than none.
+fn effect(key: &str) -> Effects {
+    let mut effects = Effects::default();
+    match key {
+        "gravity_scale" => effects.gravity_scale = Some(GravityScale(-3.0)),
+        "buoyancy" => effects.buoyancy = Some(Buoyancy::new(20_000.0, 0.0)),
+        "line_load" => effects.line_loads = Some(LineLoad::uniform(Vector3::new(20.0, 0.0, 0.0)).into()),
+        "rest_shape" => effects.rest_shape = Some(RestShape::stretched(0.99)),
+        "axial_law" => effects.axial_law = Some(AxialLaw::Curve(vec![[0.0, 0.0], [0.01, 1000.0]])),
+        "drag" => effects.drag = Some(Drag::new(1000.0, 1.2, 0.01, Flow::uniform(Vector3::new(2.0, 0.0, 0.0)))),
+        "damping" => effects.damping = Some(Damping { axial: 0.1, bending: 0.1 }),
+        "contact" => effects.contact = Some(Contact::with_friction(0.3)),
+        other => panic!("say here what an effect {other:?} changes of a rope at rest"),
+    }
+    effects
+}
+
+/// Each effect of the list wakes a load when it is given to its rope, and the load goes where it
+/// goes in a world without sleep.
+///
+/// Reference: the same world without sleep. `damping` and `contact` do nothing to a rope at rest
+/// that touches nothing, so it may fall asleep again; it is where it was.
+#[test]
+fn every_effect_wakes_a_load_when_it_is_given() {
+    for &key in Effects::KEYS {
+        let places = [true, false].map(|sleeps| {
+            let (mut world, mut set, load, rope) = hung(Effects::default());
+            if !sleeps {
+                set.settings.sleep_speed = 0.0;
+            }
+            run(&mut world, &mut set, 900);
+            assert_eq!(set.is_asleep(rope).unwrap(), sleeps, "{key}");
+            let own = set.get(rope).unwrap().effects().clone();
+            let given = effect(key);
+            let damping = given.damping.or(own.damping);
+            set.get_mut(rope).unwrap().set_effects(Effects { damping, ..given }).unwrap();
+            run(&mut world, &mut set, 1);
+            assert!(!set.is_asleep(rope).unwrap(), "{key}");
+            run(&mut world, &mut set, 29);
+            let middle = set.get(rope).unwrap().sample(1.0).unwrap().position;
+            [vector(world.bodies[load].translation()), middle]
+        });
+        let moved = (places[1][1] - Vector3::new(0.0, -1.0, 0.0)).norm();
+        let off = (0..2).map(|k| (places[0][k] - places[1][k]).norm()).fold(0.0, f64::max);
+        println!("{key}: moved {moved:.1e} m, {off:.1e} m off");
+        // sleep leaves out what is slower than 2 mm/s
+        assert!(off < 1e-3, "{key}: {off:.1e} m");
+    }
+}
+
+/// A wind that rises, a force per length that begins, a reel that starts by its table and a body
+/// that moves into the rope wake a load that hangs still, without a call of its user; a force that
+/// says that it does not depend on time lets it sleep.
+///
+/// Reference: the same world without sleep.
+#[test]
+fn what_changes_by_itself_wakes_a_load() {
+    const WAKES: f64 = 10.0;
+    #[derive(Debug)]
+    struct Push {
+        timed: bool,
+    }
+    impl ForceDensity for Push {
+        fn force(&self, at: &CablePoint) -> Vector3<f64> {
+            let begun = if self.timed { f64::from(u8::from(at.time > WAKES)) } else { 0.0 };
+            Vector3::new(10.0 * begun, 0.0, 1e-3)
+        }
+        fn depends_on_velocity(&self) -> bool {
+            false
+        }
+        fn depends_on_time(&self) -> bool {
+            self.timed
+        }
+    }
+    let wind = |rows: Vec<[f64; 2]>| {
+        let flow = Flow::uniform(Vector3::new(1.0, 0.0, 0.5)).with_history(rows);
+        Effects { drag: Some(Drag::new(1000.0, 1.2, 0.01, flow)), ..Effects::default() }
+    };
+    // what acts, whether it moves the rope, and whether it lets it sleep before
+    for (what, moves, sleeps_before) in [
+        ("wind", true, true),
+        ("gust within a step", true, true),
+        ("steady wind", false, true),
+        ("force that depends on time", true, false),
+        ("force that does not", false, true),
+        ("reel", true, true),
+        ("body that moves in", true, true),
+    ] {
+        let runs = [true, false].map(|sleeps| {
+            let effects = match what {
+                "wind" => wind(vec![[WAKES, 0.0], [WAKES + 0.2, 1.0]]),
+                "gust within a step" => wind(vec![[WAKES + 1e-3, 0.0], [WAKES + 2e-3, 1.0]]),
+                "steady wind" => wind(vec![[0.0, 0.3], [WAKES, 0.3]]),
+                "body that moves in" => effect("contact"),
+                _ => Effects::default(),
+            };
+            let (mut world, mut set, load, rope) = hung(effects);
+            let pusher = RigidBodyBuilder::kinematic_velocity_based().translation(Vector::new(-0.5, -1.0, 0.0));
+            let (pusher, _) = world.insert(pusher, ColliderBuilder::cuboid(0.2, 0.1, 0.5));
+            if !sleeps {
+                set.settings.sleep_speed = 0.0;
+            }
+            if what.starts_with("force") {
+                let push = Push { timed: moves };
+                set.get_mut(rope).unwrap().add_force_density(std::sync::Arc::new(push)).unwrap();
+            }
+            if what == "reel" {
+                let reel = Reel { rate: vec![[WAKES, 0.3]], ..Reel::default() };
+                set.get_mut(rope).unwrap().add_reel(At::Start, reel).unwrap();
+            }
+            run(&mut world, &mut set, 600);
+            let asleep = set.is_asleep(rope).unwrap();
+            let before = set.get(rope).unwrap().sample(1.0).unwrap().position;
+            if what == "body that moves in" {
+                world.bodies[pusher].set_linvel(Vector::new(1.0, 0.0, 0.0), true);
+            }
+            run(&mut world, &mut set, 30);
+            let cable = set.get(rope).unwrap();
+            let middle = cable.sample(cable.length() - 1.0).unwrap().position;
+            (asleep, (middle - before).norm(), [vector(world.bodies[load].translation()), middle])
+        });
+        let off = (0..2).map(|k| (runs[0].2[k] - runs[1].2[k]).norm()).fold(0.0, f64::max);
+        println!("{what}: asleep {}, moved {:.1e} m, {off:.1e} m off", runs[0].0, runs[1].1);
+        assert_eq!(runs[0].0, sleeps_before, "{what}");
+        assert!(!moves || runs[1].1 > 5e-3, "{what}: {:.1e} m", runs[1].1);
+        assert!(off < 1e-3, "{what}: {off:.1e} m");
     }
 }

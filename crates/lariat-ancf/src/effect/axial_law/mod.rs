@@ -126,6 +126,10 @@ impl Effect for AxialLaw {
         false
     }
 
+    fn is_steady(&self, _from: f64, _to: f64) -> bool {
+        true
+    }
+
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
         [Some(self.clone()), Some(self.clone())]
     }

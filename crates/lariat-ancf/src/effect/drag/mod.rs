@@ -76,6 +76,10 @@ impl Effect for Drag {
         false
     }
 
+    fn is_steady(&self, from: f64, to: f64) -> bool {
+        self.flow.is_steady(from, to)
+    }
+
     fn cut(&self, Cut { node, .. }: Cut<'_>) -> [Option<Self>; 2] {
         let [mut head, mut tail] = [self.clone(), self.clone()];
         if !self.flow.samples.is_empty() {
