@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`report`] | accuracy against cost: `lariat report` |
 //! | [`stability`] | hard cases: `lariat stability` |
+//! | [`matrix`] | every pair of features: `lariat matrix` |
 //! | [`coupling`] | the cost of a cable on a body: `lariat coupling` |
 //! | [`table1`] | the paper's Table 1, measured: `lariat table1` |
 //! | `single`, `double` | the worlds of the hard cases and Rapier's own ropes, over rapier3d and rapier3d-f64 |
@@ -19,6 +20,7 @@ pub mod coupling;
 mod double;
 mod error;
 pub mod machine;
+pub mod matrix;
 pub mod numbers;
 pub mod page;
 pub mod report;

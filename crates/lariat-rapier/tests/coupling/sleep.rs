@@ -360,13 +360,14 @@ fn what_changes_by_itself_wakes_a_load() {
                 let reel = Reel { rate: vec![[WAKES, 0.3]], ..Reel::default() };
                 set.get_mut(rope).unwrap().add_reel(At::Start, reel).unwrap();
             }
-            run(&mut world, &mut set, 600);
+            // until shortly before
+            run(&mut world, &mut set, 590);
             let asleep = set.is_asleep(rope).unwrap();
             let before = set.get(rope).unwrap().sample(1.0).unwrap().position;
             if what == "body that moves in" {
                 world.bodies[pusher].set_linvel(Vector::new(1.0, 0.0, 0.0), true);
             }
-            run(&mut world, &mut set, 30);
+            run(&mut world, &mut set, 40);
             let cable = set.get(rope).unwrap();
             let middle = cable.sample(cable.length() - 1.0).unwrap().position;
             (asleep, (middle - before).norm(), [vector(world.bodies[load].translation()), middle])

@@ -1,6 +1,7 @@
-//! `lariat report`, `lariat stability`, `lariat coupling` and `lariat table1`: the `lariat` command
-//! of lariat-scene starts this program.
+//! `lariat report`, `lariat stability`, `lariat matrix`, `lariat coupling` and `lariat table1`: the
+//! `lariat` command of lariat-scene starts this program.
 
+mod matrix;
 mod stability;
 
 use clap::{Parser, Subcommand};
@@ -14,7 +15,7 @@ use std::process::ExitCode;
 #[command(
     name = "lariat",
     version,
-    about = "Measures accuracy against cost, hard cases, the coupling, and the paper's Table 1"
+    about = "Measures accuracy against cost, hard cases, pairs of features, the coupling, and the paper's Table 1"
 )]
 #[command(
     after_help = "Exit codes: 0 done; 2 bad input, nothing written; 3 a measurement failed, what was measured is written"
@@ -29,6 +30,8 @@ enum Command {
     /// Run the hard cases on all hosts, beside the ropes of Rapier: stability.md, stability.svg and
     /// two CSV files in DIR
     Stability(stability::Arguments),
+    /// Run every pair of features on a small scene: matrix.md and CSV files in DIR; some minutes
+    Matrix(matrix::Arguments),
     /// Measure the cost of a cable on a body, beside the ropes of Rapier; some minutes
     Coupling {
         /// The page; a CSV file of all runs is written beside it
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match cli.command {
         Command::Stability(arguments) => stability::measure(&arguments),
+        Command::Matrix(arguments) => matrix::measure(&arguments),
         Command::Coupling { out } => measure_coupling(&out),
         Command::Table1 { csv } => measure_table1(csv.as_deref()),
         Command::Report { out, claims: true, .. } => {

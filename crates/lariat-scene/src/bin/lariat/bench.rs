@@ -1,4 +1,4 @@
-//! `lariat report`, `lariat stability` and `lariat table1`, which the program `lariat-bench` runs.
+//! `lariat report`, `lariat stability`, `lariat matrix` and `lariat table1`, which the program `lariat-bench` runs.
 //!
 //! They belong to the unpublished package `lariat-bench`, which is not linked into this command. `lariat report ...` starts the
 //! program `lariat-bench` in the folder of this one. Under `cargo run --bin lariat -- report ...` cargo builds and runs it.
@@ -14,6 +14,9 @@ pub enum Bench {
     /// Measure what a cable on a Rapier body costs (program lariat-bench)
     #[command(disable_help_flag = true)]
     Coupling(Arguments),
+    /// Run every pair of features on a small scene (program lariat-bench)
+    #[command(disable_help_flag = true)]
+    Matrix(Arguments),
     /// Measure accuracy against cost (program lariat-bench)
     #[command(disable_help_flag = true)]
     Report(Arguments),
@@ -36,6 +39,7 @@ pub struct Arguments {
 pub fn run(bench: &Bench) -> ExitCode {
     let (name, Arguments { arguments }) = match bench {
         Bench::Coupling(arguments) => ("coupling", arguments),
+        Bench::Matrix(arguments) => ("matrix", arguments),
         Bench::Report(arguments) => ("report", arguments),
         Bench::Stability(arguments) => ("stability", arguments),
         Bench::Table1(arguments) => ("table1", arguments),

@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[command(version, about = "Cables with real materials: runs scenes, finds equilibria, compares force strategies")]
 #[command(
     after_help = "Exit codes: 0 done; 2 invalid input, nothing written; 3 the run failed, samples so far are kept; 130 interrupted\n\
-                  report, stability and table1 are measurements of the workspace: see lariat report --help"
+                  report, stability, matrix and table1 are measurements of the workspace: see lariat report --help"
 )]
 struct Cli {
     #[command(subcommand)]

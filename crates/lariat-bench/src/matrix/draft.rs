@@ -1,0 +1,280 @@
+//! The drawing of a small scene, to which features are added one after the other.
+//!
+//! A rope of 1.2 m and 0.12 kg, drawn level from the origin, with 0.25 kg at its end where a body asks
+//! for it. Axial waves are resolved by steps of 1/240 s, so that a finer run shows what
+//! features do, not what the step leaves out. What touches itself is drawn as a coil.
+
+use super::feature::Feature;
+use lariat_ancf::{
+    AxialLaw, Buoyancy, Contact, Damping, Drag, Effects, Fidelity, Flow, GravityScale, LineLoad, PointLoad, Reel,
+    RestShape, Section, Strength, Vector3,
+};
+
+/// Length of the rope in m.
+pub const LENGTH: f64 = 1.2;
+/// Radius of contact in m.
+pub const RADIUS: f64 = 0.01;
+/// How long a cable acts before it is cut, in s.
+pub const CUT: f64 = 0.2;
+/// Radius of the coil that touches itself, in m.
+const COIL: f64 = 0.1;
+/// Height of a turn of it in m.
+const PITCH: f64 = 0.06;
+
+/// What holds an end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hold {
+    /// Nothing.
+    Free,
+    /// The world.
+    World,
+    /// The world, and the direction.
+    Clamp,
+    /// A prescribed motion.
+    Motion,
+    /// A body.
+    Body(Kind),
+}
+
+/// The kind of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It does not move.
+    Fixed,
+    /// It moves as it is told.
+    Kinematic,
+    /// It moves freely.
+    Dynamic,
+    /// It turns on a hinge, an impulse joint.
+    Impulse,
+    /// It turns on a hinge, a multibody joint.
+    Multibody,
+}
+
+/// What winds cable at an end.
+#[derive(Clone, Debug)]
+pub enum Wound {
+    /// A reel.
+    Reel(Reel),
+    /// A drum that is a body.
+    Drum,
+}
+
+/// Something that the cable can touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Thing {
+    /// A fixed floor under the rope.
+    Floor,
+    /// A kinematic box that rises.
+    Moving,
+    /// A dynamic ball that falls.
+    Loose,
+    /// Another cable across.
+    Cable,
+}
+
+/// A drawing.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// Where the rope begins, in m.
+    pub origin: Vector3<f64>,
+    /// Whether nothing holds it and there is no gravity.
+    pub floats: bool,
+    /// Whether it is a coil.
+    pub coil: bool,
+    /// Whether it hangs straight down, and what it can touch is beside it, at rest.
+    pub hangs: bool,
+    /// When what acts begins to act, in s.
+    pub from: f64,
+    /// What holds the start.
+    pub start: Hold,
+    /// What holds the end.
+    pub end: Hold,
+    /// A body in the middle, beside the one at the end.
+    pub middle: Option<Kind>,
+    /// Whether it runs over a sheave in its middle.
+    pub sheave: bool,
+    /// What winds cable at the start and at the end.
+    pub wound: [Option<Wound>; 2],
+    /// Its effects.
+    pub effects: Effects,
+    /// Whether a force per length of a program acts.
+    pub force_density: bool,
+    /// A point load.
+    pub load: Option<PointLoad>,
+    /// What it withstands, if not all.
+    pub strength: Option<Strength>,
+    /// Whether it is cut.
+    pub cut: bool,
+    /// What it can touch.
+    pub things: Vec<Thing>,
+    /// Its fidelity; that of the set without.
+    pub fidelity: Option<Fidelity>,
+    /// Its number of elements.
+    pub elements: usize,
+}
+
+impl Draft {
+    /// Returns the drawing of some features.
+    pub fn of(features: &[Feature], floats: bool) -> Draft {
+        let mut draft = Draft {
+            origin: Vector3::zeros(),
+            floats,
+            coil: features.contains(&Feature::TouchesItself),
+            hangs: false,
+            from: 0.0,
+            start: Hold::Free,
+            end: Hold::Free,
+            middle: None,
+            sheave: false,
+            wound: [None, None],
+            effects: Effects::default(),
+            force_density: false,
+            load: None,
+            strength: None,
+            cut: false,
+            things: Vec::new(),
+            fidelity: None,
+            elements: elements(features),
+        };
+        features.iter().for_each(|feature| draft.add(*feature));
+        if draft.start == Hold::Free && !floats {
+            draft.start = Hold::World;
+        }
+        // cable is wound at a point that does not move freely
+        if draft.wound[1].is_some() && draft.end == Hold::Free {
+            draft.end = Hold::World;
+        }
+        draft
+    }
+
+    /// Adds a feature.
+    fn add(&mut self, feature: Feature) {
+        let effects = &mut self.effects;
+        match feature {
+            Feature::Held => self.hold(Hold::World),
+            Feature::Clamped => self.hold(Hold::Clamp),
+            Feature::Prescribed => self.hold(Hold::Motion),
+            Feature::FixedBody => self.hold(Hold::Body(Kind::Fixed)),
+            Feature::KinematicBody => self.hold(Hold::Body(Kind::Kinematic)),
+            Feature::DynamicBody => self.carry(Kind::Dynamic),
+            Feature::ImpulseJoint => self.carry(Kind::Impulse),
+            Feature::MultibodyJoint => self.carry(Kind::Multibody),
+            Feature::TouchesFloor => self.touch(Some(Thing::Floor)),
+            Feature::TouchesMoving => self.touch(Some(Thing::Moving)),
+            Feature::TouchesLoose => self.touch(Some(Thing::Loose)),
+            Feature::TouchesItself => self.touch(None),
+            Feature::TouchesCable => self.touch(Some(Thing::Cable)),
+            Feature::ReelByRate => self.wind(Wound::Reel(Reel { rate: vec![[0.0, 0.4]], ..Reel::default() })),
+            Feature::ReelByForce => {
+                let motor = Reel { rate: vec![[0.0, -0.4]], max_force: Some(1.5), inertia: 0.1, ..Reel::default() };
+                self.wind(Wound::Reel(motor));
+            }
+            Feature::ReelBrake => self.wind(Wound::Reel(Reel { inertia: 0.05, ..Reel::brake(0.5) })),
+            Feature::FreeSpool => self.wind(Wound::Reel(Reel { inertia: 0.2, ..Reel::free_spool() })),
+            Feature::Sheave => self.sheave = true,
+            Feature::Drum => self.wind(Wound::Drum),
+            Feature::AxialDamping => effects.damping.get_or_insert(Damping { axial: 0.0, bending: 0.0 }).axial = 2e-3,
+            Feature::BendingDamping => {
+                effects.damping.get_or_insert(Damping { axial: 0.0, bending: 0.0 }).bending = 0.02;
+            }
+            Feature::Drag => set_drag(effects, Vector3::zeros()),
+            Feature::Current => set_drag(effects, Vector3::new(0.3, 0.0, 0.4)),
+            Feature::Buoyancy => {
+                let mut buoyancy = Buoyancy::new(100.0, 1.0);
+                buoyancy.area = Some(4e-4);
+                effects.buoyancy = Some(buoyancy);
+            }
+            Feature::RestShape => effects.rest_shape = Some(RestShape::curved(2.0)),
+            Feature::GravityScale => effects.gravity_scale = Some(GravityScale(0.8)),
+            Feature::LineLoad => effects.line_loads = Some(LineLoad::uniform(Vector3::new(0.0, 0.0, 0.3)).into()),
+            Feature::ForceDensity => self.force_density = true,
+            Feature::PointLoad => self.load = Some(PointLoad::force(0.8, Vector3::new(0.0, -0.3, 0.5))),
+            Feature::HookeLaw => effects.axial_law = Some(AxialLaw::Hooke),
+            Feature::RopeLaw => effects.axial_law = Some(AxialLaw::Rope),
+            Feature::CurveLaw => {
+                effects.axial_law = Some(AxialLaw::Curve(vec![[0.0, 0.0], [0.01, 1.0], [0.02, 3.0], [0.03, 5.0]]));
+            }
+            Feature::Break => self.strength = Some(Strength::tension(0.6)),
+            Feature::Cut => self.cut = true,
+            Feature::Game => self.fidelity = Some(Fidelity::Game),
+            Feature::Engineering => self.fidelity = Some(Fidelity::Engineering),
+            Feature::Statics | Feature::Snapshot | Feature::Sleep | Feature::ErrorTarget => {}
+        }
+    }
+
+    /// Holds the start, or the end if that is held.
+    fn hold(&mut self, hold: Hold) {
+        if self.start == Hold::Free { self.start = hold } else { self.end = hold }
+    }
+
+    /// Puts a body on the end, or into the middle if one is there.
+    fn carry(&mut self, kind: Kind) {
+        if self.end == Hold::Free { self.end = Hold::Body(kind) } else { self.middle = Some(kind) }
+    }
+
+    /// Winds cable at the start, or at the end if it is wound at the start.
+    fn wind(&mut self, wound: Wound) {
+        self.wound[usize::from(self.wound[0].is_some())] = Some(wound);
+    }
+
+    /// Lets the cable touch something, or itself.
+    fn touch(&mut self, thing: Option<Thing>) {
+        let contact = self.effects.contact.get_or_insert_with(|| Contact::with_friction(0.3).with_radius(RADIUS));
+        contact.itself |= thing.is_none();
+        contact.cables |= thing == Some(Thing::Cable);
+        self.things.extend(thing);
+    }
+
+    /// Returns the drawn points, from the start.
+    pub fn points(&self) -> Vec<Vector3<f64>> {
+        let at = |x: f64, y: f64, z: f64| self.origin + Vector3::new(x, y, z);
+        if self.hangs {
+            return vec![at(0.0, 0.0, 0.0), at(0.0, -LENGTH, 0.0)];
+        }
+        if !self.coil {
+            return vec![at(0.0, 0.0, 0.0), at(LENGTH, 0.0, 0.0)];
+        }
+        let per_turn = (COIL * COIL + (PITCH / std::f64::consts::TAU).powi(2)).sqrt() * std::f64::consts::TAU;
+        let turns = LENGTH / per_turn;
+        let turn = |k: usize| std::f64::consts::TAU * turns * k as f64 / 64.0;
+        (0..=64)
+            .map(|k| (turn(k), PITCH * turns * k as f64 / 64.0))
+            .map(|(angle, y)| at(COIL * angle.sin(), y, COIL * (1.0 - angle.cos())))
+            .collect()
+    }
+
+    /// Returns the point of the drawing at a share of its length.
+    pub fn point(&self, share: f64) -> Vector3<f64> {
+        let points = self.points();
+        let x = share * (points.len() - 1) as f64;
+        let k = (x as usize).min(points.len() - 2);
+        points[k] + (points[k + 1] - points[k]) * (x - k as f64)
+    }
+
+    /// Returns the section of the rope.
+    pub fn section() -> Section {
+        Section::from_stiffness(400.0, 1e-3, 0.1).expect("a section")
+    }
+}
+
+/// Returns the elements of a scene: more for a coil, and for statics, which look for contacts at
+/// samples.
+fn elements(features: &[Feature]) -> usize {
+    match features {
+        _ if features.contains(&Feature::TouchesItself) => 16,
+        _ if features.contains(&Feature::Statics) => 16,
+        _ => 6,
+    }
+}
+
+/// Sets drag in a fluid of 100 kg/m^3, 2 cm thick, that flows within a fifth of a second.
+fn set_drag(effects: &mut Effects, velocity: Vector3<f64>) {
+    let mut flow = Flow::uniform(velocity);
+    if velocity != Vector3::zeros() {
+        flow = flow.with_history([[0.0, 0.0], [0.2, 1.0]]);
+    }
+    let mut drag = Drag::new(100.0, 1.2, 0.02, flow);
+    drag.diameter = Some(0.02);
+    effects.drag = Some(drag);
+}

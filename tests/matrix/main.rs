@@ -1,0 +1,104 @@
+//! Every pair of features works, is refused for a reason of physics, or is a known miss: the pairs
+//! are those of `lariat matrix`, in `crates/lariat-bench/src/matrix`.
+//!
+//! `cargo test` runs a selection; with the environment variable `LARIAT_LONG_TESTS=1` it runs every
+//! pair.
+//!
+//! # References
+//! Conservation of energy and momentum; the same scene at dt/8; the same run with and without a
+//! saved state; the same features far apart; a world that may not sleep.
+
+use lariat_bench::matrix::feature::{Feature, Pair};
+use lariat_bench::matrix::misses::{Miss, differences, of, read};
+use lariat_bench::matrix::run::{Outcome, Row, run};
+use lariat_bench::stability::outcome::Check;
+use lariat_rapier::lariat_ancf::{AxialLaw, EffectWork, Fidelity, island};
+use std::collections::BTreeSet;
+
+/// Pairs of the quick selection: each this many.
+const EVERY: usize = 8;
+
+fn known() -> Vec<Miss> {
+    read(include_str!("../../crates/lariat-bench/matrix_misses.csv")).expect("a file of misses")
+}
+
+fn long() -> bool {
+    std::env::var_os("LARIAT_LONG_TESTS").is_some_and(|value| value == "1")
+}
+
+/// Returns the pairs that are run: all in the long run, else every eighth, and a different one in
+/// each row of the matrix.
+fn selected() -> Vec<Pair> {
+    let all = Pair::all();
+    if long() {
+        return all;
+    }
+    // a step that has no factor with the length of a row
+    all.into_iter().enumerate().filter(|(k, _)| (k * 7).is_multiple_of(EVERY)).map(|(_, pair)| pair).collect()
+}
+
+#[test]
+fn pairs_of_features_keep_the_laws() {
+    let pairs = selected();
+    let rows: Vec<Row> = pairs.iter().map(|pair| run(*pair)).collect();
+    let differences = differences(&rows, &known());
+    assert!(differences.is_empty(), "{} pairs:\n{}", rows.len(), differences.join("\n"));
+    let right = rows.iter().filter(|row| row.outcome == Outcome::Right).count();
+    println!("{right} of {} pairs are right", rows.len());
+    // a matrix in which hardly anything runs would be true, too
+    assert!(2 * right > rows.len(), "{right} of {}", rows.len());
+}
+
+/// Each effect, term, axial law and fidelity of the code is that of a feature: a new one is in the
+/// matrix, or this fails.
+///
+/// Reference: the lists of the code.
+#[test]
+fn what_the_code_lists_is_in_the_matrix() {
+    let effects: BTreeSet<_> = Feature::ALL.into_iter().filter_map(Feature::effect).collect();
+    let listed: BTreeSet<_> = EffectWork::default().by_key().map(|(key, _)| key).collect();
+    assert_eq!(effects, listed);
+    let terms: BTreeSet<_> = Feature::ALL.into_iter().map(Feature::term).collect();
+    assert_eq!(terms, island::terms().into_iter().collect());
+    // exhaustive, so that a new law does not compile until it has a feature
+    for law in [AxialLaw::Hooke, AxialLaw::Rope, AxialLaw::Curve(Vec::new())] {
+        let feature = match law {
+            AxialLaw::Hooke => Feature::HookeLaw,
+            AxialLaw::Rope => Feature::RopeLaw,
+            AxialLaw::Curve(_) => Feature::CurveLaw,
+        };
+        assert_eq!(feature.effect(), Some("axial_law"));
+    }
+    // the reference is the engineering of a tighter tolerance
+    let fidelities = Fidelity::ALL.map(Fidelity::name);
+    assert!(fidelities.contains(&Feature::Game.name()) && fidelities.contains(&Feature::Engineering.name()));
+    assert_eq!(fidelities.len(), 3);
+}
+
+/// The list has each feature once, under its own name, and each pair once.
+#[test]
+fn every_pair_is_in_the_list_once() {
+    let names: BTreeSet<_> = Feature::ALL.into_iter().map(Feature::name).collect();
+    assert_eq!(names.len(), Feature::ALL.len());
+    assert!(Feature::ALL.into_iter().all(|feature| feature.name().parse() == Ok(feature)));
+    let pairs: BTreeSet<_> = Pair::all().into_iter().collect();
+    assert_eq!(pairs.len(), Feature::ALL.len() * (Feature::ALL.len() - 1) / 2);
+}
+
+/// A new miss, one that grew and one that is mended are reported, and nothing else.
+#[test]
+fn misses_that_differ_from_the_list_are_reported() {
+    let pair = Pair(Feature::Held, Feature::Cut);
+    let row = |value: f64| {
+        let check = Check::at_most("energy made", value, 0.01, "the contract");
+        let outcome = if check.holds() { Outcome::Right } else { Outcome::Wrong(vec![check.clone()]) };
+        Row { pair, outcome, checks: vec![check] }
+    };
+    let changes = |before: &Row, now: &Row| differences(std::slice::from_ref(now), &of(before));
+    assert!(changes(&row(0.02), &row(0.02)).is_empty());
+    assert!(changes(&row(0.001), &row(0.002)).is_empty());
+    assert!(changes(&row(0.02), &row(0.05)).iter().any(|line| line.ends_with("worse")));
+    assert!(changes(&row(0.02), &row(f64::NAN)).iter().any(|line| line.ends_with("worse")));
+    assert!(changes(&row(0.001), &row(0.02)).iter().any(|line| line.contains("a new miss")));
+    assert!(changes(&row(0.02), &row(0.001)).iter().any(|line| line.contains("mended")));
+}
