@@ -7,7 +7,7 @@
 use super::feature::Feature;
 use lariat_ancf::{
     AxialLaw, Buoyancy, Contact, Damping, Drag, Effects, Fidelity, Flow, GravityScale, LineLoad, PointLoad, Reel,
-    RestShape, Section, Strength, Vector3,
+    RestShape, Section, Strength, Torsion, Vector3,
 };
 
 /// Length of the rope in m.
@@ -92,6 +92,8 @@ pub struct Draft {
     pub end: Hold,
     /// A body in the middle, beside the one at the end.
     pub middle: Option<Kind>,
+    /// Whether what holds an end also holds its direction.
+    pub clamps: bool,
     /// Whether it runs over a sheave in its middle.
     pub sheave: bool,
     /// What winds cable at the start and at the end.
@@ -126,6 +128,7 @@ impl Draft {
             start: Hold::Free,
             end: Hold::Free,
             middle: None,
+            clamps: false,
             sheave: false,
             wound: [None, None],
             effects: Effects::default(),
@@ -184,6 +187,10 @@ impl Draft {
                 let mut buoyancy = Buoyancy::new(100.0, 1.0);
                 buoyancy.area = Some(4e-4);
                 effects.buoyancy = Some(buoyancy);
+            }
+            Feature::Torsion => {
+                effects.torsion = Some(Torsion { initial_twist: 0.5, damping: 0.2, ..Torsion::new(1e-3) });
+                self.clamps = true;
             }
             Feature::RestShape => effects.rest_shape = Some(RestShape::curved(2.0)),
             Feature::GravityScale => effects.gravity_scale = Some(GravityScale(0.8)),

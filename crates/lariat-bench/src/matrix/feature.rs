@@ -59,6 +59,8 @@ pub enum Feature {
     Buoyancy,
     /// A rest shape.
     RestShape,
+    /// Torsion, twisted as built, between clamps.
+    Torsion,
     /// Gravity scaled for one cable.
     GravityScale,
     /// A line load.
@@ -95,7 +97,7 @@ use Feature::*;
 
 impl Feature {
     /// All features.
-    pub const ALL: [Feature; 40] = [
+    pub const ALL: [Feature; 41] = [
         Held,
         Clamped,
         Prescribed,
@@ -121,6 +123,7 @@ impl Feature {
         Current,
         Buoyancy,
         RestShape,
+        Torsion,
         GravityScale,
         LineLoad,
         ForceDensity,
@@ -166,6 +169,7 @@ impl Feature {
             Current => "current that grows",
             Buoyancy => "buoyancy",
             RestShape => "rest shape",
+            Torsion => "torsion",
             GravityScale => "scaled gravity",
             LineLoad => "line load",
             ForceDensity => "force density",
@@ -192,6 +196,7 @@ impl Feature {
             Drag | Current => "drag",
             Buoyancy => "buoyancy",
             RestShape => "rest_shape",
+            Torsion => "torsion",
             GravityScale => "gravity_scale",
             LineLoad => "line_load",
             ForceDensity => "force_density",
@@ -206,6 +211,7 @@ impl Feature {
             FixedBody | KinematicBody => "pins",
             DynamicBody | ImpulseJoint | MultibodyJoint => "bodies",
             ReelByRate | ReelByForce | ReelBrake | FreeSpool | Sheave | Drum => "reels",
+            Torsion => "torsion",
             feature if feature.is_contact() => "contacts",
             _ => "cables",
         }
@@ -239,7 +245,7 @@ impl Feature {
     /// Whether a system that has it, and no more, keeps its momentum: nothing acts from outside.
     pub fn keeps_momentum(self) -> bool {
         let internal = matches!(self, DynamicBody | TouchesLoose | TouchesItself | TouchesCable | Break | Cut);
-        let own = matches!(self, AxialDamping | BendingDamping | RestShape | HookeLaw | RopeLaw | CurveLaw);
+        let own = matches!(self, AxialDamping | BendingDamping | RestShape | Torsion | HookeLaw | RopeLaw | CurveLaw);
         internal || own || matches!(self, Snapshot | Game | Engineering)
     }
 

@@ -185,6 +185,7 @@ impl Scene {
     fn hold(&mut self, draft: &Draft, cable: CableHandle, (at, share): (At, f64), hold: Hold) -> Result<(), Fault> {
         match hold {
             Hold::Free => {}
+            Hold::World if draft.clamps => self.set.get_mut(cable)?.clamp(at)?,
             Hold::World => self.set.get_mut(cable)?.fix(at)?,
             Hold::Clamp => self.set.get_mut(cable)?.clamp(at)?,
             Hold::Motion => {
@@ -197,7 +198,8 @@ impl Scene {
             }
             Hold::Body(kind) => {
                 let body = self.add_body(draft, kind, share);
-                self.set.attach_here(&self.physics, cable, at, body, AttachmentKind::Ball)?;
+                let kind = if draft.clamps { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+                self.set.attach_here(&self.physics, cable, at, body, kind)?;
             }
         }
         Ok(())

@@ -113,6 +113,7 @@ fn changes(feature: Feature) -> bool {
             | Feature::AxialDamping
             | Feature::BendingDamping
             | Feature::Drag
+            | Feature::Torsion
             | Feature::HookeLaw
             | Feature::RopeLaw
             | Feature::CurveLaw

@@ -90,6 +90,11 @@ impl EndSpin {
         !matches!(*self, EndSpin::Motor { rate, until, .. } if rate != 0.0 && time < until)
     }
 
+    /// Whether it does not turn from one time to another.
+    fn is_steady(&self, time: f64, to: f64) -> bool {
+        self.is_still(time) || matches!(*self, EndSpin::Motor { from, .. } if to <= from)
+    }
+
     fn delay(&mut self, by: f64) {
         if let EndSpin::Motor { from, until, .. } = self {
             *from += by;
@@ -180,6 +185,10 @@ impl Effect for Torsion {
 
     fn needs_implicit_integrator(&self) -> bool {
         false
+    }
+
+    fn is_steady(&self, from: f64, to: f64) -> bool {
+        self.start.is_steady(from, to) && self.end.is_steady(from, to)
     }
 
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
