@@ -1,6 +1,6 @@
 //! Slack ropes that are drawn beside the bodies that they are tied to.
 
-use crate::common::run;
+use super::common::run;
 use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Warning};
@@ -8,8 +8,8 @@ use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Warning};
 /// A body on which a rope of this length is tied, its other end 2 m away at the same height; the rope's contact is given before or after.
 fn tied(
     shape: SharedShape,
-    mass: f32,
-    anchor: [f32; 3],
+    mass: Real,
+    anchor: [Real; 3],
     length: f64,
     elements: usize,
     late: bool,
