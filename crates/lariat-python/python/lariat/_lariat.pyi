@@ -331,8 +331,7 @@ class Cable:
 
     def prescribe(self, at: Place, position: ArrayLike, duration: float, velocity: ArrayLike | None = None) -> None:
         """Prescribes the position of a node: the cubic from where it is, at its present velocity, to ``position`` (m) at ``velocity``
-        (m/s; default 0) a time ``duration`` (s) later. Prescribe the next piece, or fix the node, when that time is over: the cubic goes
-        on."""
+        (m/s; default 0) a time ``duration`` (s) later; then it is held there. ``restore`` restores it."""
 
     def add_load(self, s: float, force: ArrayLike | None = None, *, moment: ArrayLike | None = None, ramp: float = 0.0) -> None:
         """Adds a constant force (N) and moment (N m) in world axes at an arc length (m), ramped over ``ramp`` s. Raises OutOfRangeError,

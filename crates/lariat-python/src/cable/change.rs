@@ -5,7 +5,7 @@ use crate::convert::{Array, Place, Vector};
 use crate::error::{Raise, raise};
 use crate::integrator::Choice;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{Error, Motion, PointLoad, Vector3};
+use lariat_ancf::{Error, PointLoad, Vector3};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::borrow::Cow;
@@ -34,7 +34,7 @@ impl Cable {
     }
 
     /// Prescribes the position of a node: the cubic from where it is, at its present velocity, to `position` (m) at `velocity` (m/s) a
-    /// time `duration` (s) later. Prescribe the next piece, or fix the node, when the time is over.
+    /// time `duration` (s) later; then it is held there.
     #[pyo3(signature = (at, position, duration, velocity=None))]
     fn prescribe(
         &self,
@@ -45,17 +45,7 @@ impl Cable {
         velocity: Option<Vector>,
     ) -> PyResult<()> {
         let velocity = velocity.map_or(Vector3::zeros(), |v| v.0);
-        self.change(py, |cable| {
-            if !(duration.is_finite() && duration > 0.0) {
-                let (cable, what) = (Some(cable.name().to_string()), "duration (s)".to_string());
-                return Err(Error::InvalidValue { cable, what, value: duration, expected: "> 0" });
-            }
-            let node = cable.node(at.0)?;
-            let from =
-                (cable.node_position(node), Vector3::from_column_slice(&cable.velocities()[6 * node..6 * node + 3]));
-            let motion = Motion::hermite(cable.time(), duration, from, (position.0, velocity));
-            cable.set_motion(node, motion)
-        })
+        self.change(py, |cable| cable.prescribe(at.0, position.0, velocity, duration))
     }
 
     /// Adds a constant force (N) and moment (N m) in world axes at an arc length (m), ramped over `ramp` s.

@@ -7,7 +7,9 @@ use super::reel::{self, DrumScene, DrumTable, REEL};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
-use lariat_ancf::{AxialRule, BendingRule, Effects, Fidelity, Reel, Rule, Section, Shape, Vector3};
+use lariat_ancf::{
+    At, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3,
+};
 use serde::Deserialize;
 
 choice! {
@@ -30,17 +32,22 @@ table! {
         points: Vec<Vector3<f64>> = required, Kind::Rows(&["x", "y", "z"], 2), "m";
         /// Unstretched length: a cable shorter than drawn is taut at the start, a longer one hangs slack.
         length: Option<f64> = ("the length of the polyline"), Kind::Number(POSITIVE), "m";
+        /// Instead of `length`: the length with which it has this tension at its middle when it hangs between its drawn ends, under its
+        /// weight and constant loads. `initial = "equilibrium"` starts it so.
+        pretension: Option<f64> = ("none"), Kind::Number(POSITIVE), "N";
+        /// Instead of `length`: the length with which it hangs by this distance below the line between its drawn ends, at most.
+        sag: Option<f64> = ("none"), Kind::Number(POSITIVE), "m";
         /// `"straight"` starts as drawn, `"equilibrium"` in the static shape under the loads of the scene, with bodies and junctions
         /// held where they are drawn; with contact it lies on the bodies, without friction.
         initial: Initial = "straight", Kind::Choice(Initial::names);
         /// Number of elements. A cable over sheaves shares them out over its parts, each of which has at least two.
         elements: u64 = 10, Kind::Whole(1, 1_000_000);
-        /// Shape of the section; or the three stiffnesses.
-        section: Option<Shape> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
-        /// Density of the material, beside `section`.
-        density: Option<f64> = ("required with `section`"), Kind::Number(POSITIVE), "kg/m^3";
-        /// Young's modulus, beside `section`.
-        youngs_modulus: Option<f64> = ("required with `section`"), Kind::Number(POSITIVE), "Pa";
+        /// Shape of a solid section, or a rope or chain by name and nominal diameter; or the three stiffnesses.
+        section: Option<SectionForm> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
+        /// Density of the material, beside a solid `section`.
+        density: Option<f64> = ("required with a solid `section`"), Kind::Number(POSITIVE), "kg/m^3";
+        /// Young's modulus, beside a solid `section`.
+        youngs_modulus: Option<f64> = ("required with a solid `section`"), Kind::Number(POSITIVE), "Pa";
         /// EA, with `bending_stiffness` and `mass_per_length`, instead of `section`.
         axial_stiffness: Option<f64> = ("required without `section`"), Kind::Number(POSITIVE), "N";
         /// EI, with `axial_stiffness` and `mass_per_length`, instead of `section`.
@@ -66,7 +73,8 @@ table! {
 }
 
 table! {
-    /// A solid section of one material.
+    /// A solid section of one material, or a rope or chain by its nominal diameter, with mass, EA and no EI as catalogues have them
+    /// (`RopeMaterial` of lariat-ancf names the sources).
     keys SECTION("[cable.section]") {
         /// Side of a square.
         square = (), Kind::Number(POSITIVE), "m";
@@ -74,8 +82,61 @@ table! {
         round = (), Kind::Number(POSITIVE), "m";
         /// Outer and inner diameter, outer > inner >= 0.
         tube = (), Kind::Numbers(&["outer", "inner"], NOT_NEGATIVE), "m";
+        /// Nominal diameter of a nylon rope.
+        nylon = (), Kind::Number(POSITIVE), "m";
+        /// Nominal diameter of a polyester rope.
+        polyester = (), Kind::Number(POSITIVE), "m";
+        /// Nominal diameter of a rope of high-modulus polyethylene.
+        hmpe = (), Kind::Number(POSITIVE), "m";
+        /// Nominal diameter of a steel wire rope, with its EI.
+        wire_rope = (), Kind::Number(POSITIVE), "m";
+        /// Bar diameter of a studless chain.
+        chain = (), Kind::Number(POSITIVE), "m";
     }
-    choose Choose::ExactlyOne(&["square", "round", "tube"]);
+    choose Choose::ExactlyOne(&["square", "round", "tube", "nylon", "polyester", "hmpe", "wire_rope", "chain"]);
+}
+
+/// A section as a scene writes it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SectionForm {
+    /// Side.
+    Square(f64),
+    /// Diameter.
+    Round(f64),
+    /// Outer and inner diameter.
+    Tube(f64, f64),
+    /// By name.
+    Nylon(f64),
+    /// By name.
+    Polyester(f64),
+    /// By name.
+    Hmpe(f64),
+    /// By name.
+    WireRope(f64),
+    /// By name.
+    Chain(f64),
+}
+
+/// A section as mechanics has it.
+enum Form {
+    Solid(Shape),
+    Rope(RopeMaterial, f64),
+}
+
+impl SectionForm {
+    fn form(self) -> Form {
+        match self {
+            SectionForm::Square(side) => Form::Solid(Shape::Square(side)),
+            SectionForm::Round(diameter) => Form::Solid(Shape::Round(diameter)),
+            SectionForm::Tube(outer, inner) => Form::Solid(Shape::Tube(outer, inner)),
+            SectionForm::Nylon(diameter) => Form::Rope(RopeMaterial::Nylon, diameter),
+            SectionForm::Polyester(diameter) => Form::Rope(RopeMaterial::Polyester, diameter),
+            SectionForm::Hmpe(diameter) => Form::Rope(RopeMaterial::Hmpe, diameter),
+            SectionForm::WireRope(diameter) => Form::Rope(RopeMaterial::WireRope, diameter),
+            SectionForm::Chain(diameter) => Form::Rope(RopeMaterial::Chain, diameter),
+        }
+    }
 }
 
 table! {
@@ -148,19 +209,20 @@ pub(super) fn read(
     doc: &Document<'_>,
     at: &KeyPath,
     mut row: CableTable,
+    gravity: Vector3<f64>,
 ) -> Result<(CableScene, Option<DrumTable>), Error> {
     if let Some(i) = row.points.windows(2).position(|p| p[0] == p[1]) {
         let problem = format!("points {i} and {} coincide at {:?}", i + 1, row.points[i].as_slice());
         return Err(doc.conflict(&at.key("points"), problem));
     }
     let drawn: f64 = row.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-    let length = row.length.unwrap_or(drawn);
-    if !length.is_finite() {
-        return Err(doc.error(&at.key("points"), Problem::NotFinite(vec![length])));
+    if !drawn.is_finite() {
+        return Err(doc.error(&at.key("points"), Problem::NotFinite(vec![drawn])));
     }
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let rule = rule(doc, &at.key("rule"), &row, integrator.rule())?;
     let section = section(doc, at, &row)?;
+    let length = length(doc, at, &row, (section, rule, gravity), drawn)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
     let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
@@ -199,6 +261,34 @@ pub(super) fn read(
     Ok((cable, drum))
 }
 
+/// Returns the length of a cable that is drawn over `drawn` m: as given, or by its tension or sag.
+fn length(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    row: &CableTable,
+    (section, rule, gravity): (Section, Rule, Vector3<f64>),
+    drawn: f64,
+) -> Result<f64, Error> {
+    let given = [("length", row.length), ("pretension", row.pretension), ("sag", row.sag)];
+    let mut given = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
+    let Some((key, value)) = given.next() else { return Ok(drawn) };
+    if let Some((other, _)) = given.next() {
+        return Err(doc.conflict(&at.key(other), format!("both {key} and {other} are given")));
+    }
+    if key == "length" {
+        return Ok(value);
+    }
+    let mut rest = row.effects.clone();
+    breaking::read(doc, at, &mut rest, (drawn, row.elements))?;
+    reel::read(doc, at, &mut rest)?;
+    let effects = effects::read(doc, at, rest, &effects::Context { section: &section, rule, length: drawn })?;
+    let builder = Cable::builder().points(row.points.iter().copied()).elements(row.elements as usize).section(section);
+    let builder =
+        builder.rule(rule).effects(effects).allow_rank_deficient().gravity(gravity).fix(At::Start).fix(At::End);
+    let builder = if key == "sag" { builder.sag(value) } else { builder.pretension(value) };
+    builder.build().map(|cable| cable.length()).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
+}
+
 fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section, Error> {
     let stiffness = [
         ("axial_stiffness", row.axial_stiffness),
@@ -212,7 +302,7 @@ fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section
         let at = path.split('.').fold(at.clone(), |at, key| at.key(key));
         move |error: lariat_ancf::Error| doc.conflict(&at, error.to_string())
     };
-    match (row.section, given(&stiffness), given(&material)) {
+    match (row.section.map(SectionForm::form), given(&stiffness), given(&material)) {
         (None, None, _) => Err(doc.missing(&at.key("section"))),
         (None, Some(_), Some(key)) => Err(doc.conflict(&at.key(key), format!("{key} has no meaning without section"))),
         (Some(_), Some(key), _) => Err(doc.conflict(&at.key(key), format!("both section and {key} are given"))),
@@ -220,7 +310,11 @@ fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section
             let [ea, ei, m] = stiffness.map(required);
             Section::from_stiffness(ea?, ei?, m?).map_err(invalid("axial_stiffness"))
         }
-        (Some(shape), None, _) => {
+        (Some(Form::Rope(..)), None, Some(key)) => {
+            Err(doc.conflict(&at.key(key), format!("{key} is that of the rope or chain that `section` names")))
+        }
+        (Some(Form::Rope(material, diameter)), None, None) => material.section(diameter).map_err(invalid("section")),
+        (Some(Form::Solid(shape)), None, _) => {
             let [density, modulus] = material.map(required);
             let density = density?;
             let key = if matches!(shape, Shape::Tube(..)) { "section.tube" } else { "section" };

@@ -206,7 +206,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     for (i, row) in table.cable.into_iter().enumerate() {
         let at = root.key("cable").item(i);
         references::unique(doc, &at, &row.name, scene.cables.iter().map(|c| c.name.as_str()))?;
-        let (cable, drum) = cable::read(doc, &at, row)?;
+        let (cable, drum) = cable::read(doc, &at, row, scene.gravity)?;
         drums.extend(drum.map(|drum| (i, drum)));
         if cable.effects.contact.is_some() && engine == Engine::None {
             return Err(

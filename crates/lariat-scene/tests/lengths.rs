@@ -1,0 +1,58 @@
+//! Cables by tension or sag instead of a length, and sections by name.
+
+use lariat_scene::{Purpose, Scene};
+
+fn scene(rest: &str) -> String {
+    format!(
+        "name = \"line\"\nduration = 1.0\nengine = \"none\"\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]]\n\
+         elements = 20\n{rest}\n[[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n\
+         [[attachment]]\ncable = \"line\"\nat = \"end\"\nbody = \"world\"\n"
+    )
+}
+
+fn parsed(rest: &str) -> Result<Scene, String> {
+    Scene::parse("scene.toml", &scene(rest), &[], Purpose::Run).map_err(|error| error.to_string())
+}
+
+/// A line with a sag or a pretension has the length with which it hangs so.
+///
+/// *Source.* A shallow parabola: H = w L^2/(8 d), L = span (1 + 8/3 (d/span)^2)/(1 + H/EA), within (d/span)^4 and the strain squared.
+#[test]
+fn a_sag_or_a_pretension_gives_the_length() {
+    let section = "axial_stiffness = 2.0e6\nbending_stiffness = 0.0\nmass_per_length = 1.5\n";
+    let (span, weight, sag) = (40.0f64, 1.5 * 9.81, 0.5f64);
+    let force = weight * span * span / (8.0 * sag);
+    let length = span * (1.0 + 8.0 / 3.0 * (sag / span).powi(2)) / (1.0 + force / 2e6);
+    for rest in [format!("sag = {sag}\n"), format!("pretension = {force}\n")] {
+        let found = parsed(&format!("{rest}{section}")).unwrap().cables[0].length;
+        assert!((found / length - 1.0).abs() < 2e-5, "{rest}: {found} for {length}");
+    }
+    for (rest, name) in
+        [("sag = 0.5\nlength = 41.0\n", "sag"), ("sag = 0.5\npretension = 9.0\n", "sag"), ("sag = 0.0\n", "sag")]
+    {
+        let error = parsed(&format!("{rest}{section}")).unwrap_err();
+        assert!(error.contains(name), "{error}");
+    }
+}
+
+/// A section by name has the numbers of its material, and no other.
+///
+/// *Source.* `RopeMaterial`, whose table has the sources.
+#[test]
+fn a_section_may_be_a_rope_or_a_chain_by_name() {
+    for (name, mass) in
+        [("chain", 200.1), ("nylon", 5.8515), ("polyester", 6.7875), ("hmpe", 4.9572), ("wire_rope", 40.9)]
+    {
+        let section = parsed(&format!("section = {{ {name} = 0.1 }}\n")).unwrap().cables[0].section;
+        assert!((section.mass_per_length / mass - 1.0).abs() < 1e-9, "{name}: {section:?}");
+    }
+    for wrong in [
+        "section = { chain = 0.1 }\ndensity = 7850.0\n",
+        "section = { nylon = -0.1 }\n",
+        "section = { chain = 20.0 }\n",
+        "section = { chain = 0.1, nylon = 0.1 }\n",
+        "section = { chian = 0.1 }\n",
+    ] {
+        assert!(parsed(wrong).is_err(), "{wrong}");
+    }
+}
