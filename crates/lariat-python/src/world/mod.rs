@@ -206,7 +206,8 @@ impl World {
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let energy = self.0.with(py, |contents| contents.set.energy(&contents.world)).map_err(raise)?;
         let cables = energy.cables;
-        let cables = result(py, "Energy", (cables.kinetic, cables.axial, cables.bending, cables.gravity, cables.torsion))?;
+        let cables =
+            result(py, "Energy", (cables.kinetic, cables.axial, cables.bending, cables.gravity, cables.torsion))?;
         result(py, "WorldEnergy", (cables, energy.bodies_kinetic, energy.bodies_gravity))
     }
 

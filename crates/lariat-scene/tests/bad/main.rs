@@ -26,7 +26,12 @@ fn problems_can_be_told_apart_by_type() {
         ("duration = 1.0", "duration = \"long\"", 1, Problem::WrongType("the text \"long\"".to_string())),
         ("density", "densty", 6, Problem::UnknownKey("densty".to_string())),
         ("density = 4000.0", "", 2, Problem::MissingKey("density".to_string())),
-        ("section = { round = 0.01 }", "section = {}", 5, Problem::NoneGiven(&["square", "round", "tube"])),
+        (
+            "section = { round = 0.01 }",
+            "section = {}",
+            5,
+            Problem::NoneGiven(&["square", "round", "tube", "nylon", "polyester", "hmpe", "wire_rope", "chain"]),
+        ),
         ("name = \"sling\"", "name = \"all\"", 3, Problem::ReservedName("all".to_string())),
     ] {
         assert!(GOOD.contains(from));
