@@ -133,6 +133,22 @@ pub struct Support {
 }
 
 impl Support {
+    /// Makes what it prescribes later by a time in s.
+    pub(crate) fn delay(&mut self, by: f64) {
+        let slope = match &mut self.slope {
+            SlopeSupport::Prescribed(motion) => Some(motion),
+            _ => None,
+        };
+        self.position.iter_mut().chain(slope).for_each(|motion| motion.delay(by));
+    }
+
+    /// Whether what it prescribes stands still from a time in s on.
+    pub(crate) fn is_still_from(&self, time: f64) -> bool {
+        let stands = |motion: &Motion| motion.is_still() || motion.is_over(time);
+        self.position.as_ref().is_none_or(stands)
+            && !matches!(&self.slope, SlopeSupport::Prescribed(motion) if !stands(motion))
+    }
+
     /// Whether what it prescribes stands still.
     pub(crate) fn is_still(&self) -> bool {
         self.position.as_ref().is_none_or(Motion::is_still)
@@ -255,4 +271,18 @@ pub(crate) struct Prescription {
     pub node: usize,
     pub motion: Motion,
     pub before: Support,
+}
+
+impl Prescription {
+    /// Refuses motions that are not finite.
+    pub fn check(&self) -> Result<(), Error> {
+        Support { position: Some(self.motion), ..Support::default() }.check()?;
+        self.before.check()
+    }
+
+    /// Makes it later by a time in s.
+    pub fn delay(&mut self, by: f64) {
+        self.motion.delay(by);
+        self.before.delay(by);
+    }
 }

@@ -53,7 +53,7 @@ impl Cable {
     }
 
     /// Holds the position of a node where it is, and its tangent along `direction` (any length).
-    /// The tangent is turned at once. A cable at rest at time 0 takes the shape of static
+    /// The tangent is turned at once. A cable at rest that has not been stepped takes the shape of static
     /// equilibrium between its clamps, as one that is [built](crate::CableBuilder::clamp_along) so.
     ///
     /// # Errors
@@ -87,14 +87,14 @@ impl Cable {
     }
 
     /// Sets the support of a node that holds its tangent along a unit vector, and bends a cable at
-    /// rest at time 0 to it.
+    /// rest that has not been stepped to it.
     pub(crate) fn hold_along(&mut self, node: usize, support: Support, direction: Vector3<f64>) -> Result<(), Error> {
         let before = self.node_slope(node);
         self.set_support(At::Node(node), support)?;
         if is_turned(&before, &direction) {
             let turned = direction * before.norm();
             self.set_slope(node, &turned);
-            if self.time() == 0.0 && self.velocities().iter().all(|v| *v == 0.0) {
+            if self.is_as_begun() {
                 self.bend_to_clamps(&[(node, before)])?;
             }
         }

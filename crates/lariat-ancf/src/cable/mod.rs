@@ -108,6 +108,8 @@ pub struct Cable {
     pub(crate) watch: Option<Box<Watch>>,
     /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
     pub(crate) end_noise: f64,
+    /// Time in s at which it was built, or inserted among others.
+    begins: f64,
     /// The shape before parts with free ends turned with their clamps, if they did.
     as_drawn: Option<Box<AsDrawn>>,
     /// How it was laid, if it is slack and without clamps.
@@ -142,6 +144,7 @@ impl Cable {
             before: State::default(),
             watch: None,
             end_noise: 0.0,
+            begins: 0.0,
             as_drawn: None,
             sagging: None,
             revision: 0,

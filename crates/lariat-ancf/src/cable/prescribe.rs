@@ -82,10 +82,20 @@ impl Cable {
             return Ok(());
         }
         let nodes = self.nodes();
-        for Prescription { node, before, .. } in now.iter().filter(|p| p.node < nodes) {
+        // what was attached to a body since stays there
+        let is_led = |cable: &Cable, p: &Prescription| {
+            p.node < nodes && !cable.model.support(p.node).is_some_and(|support| support.attached)
+        };
+        for p @ Prescription { node, before, .. } in &now {
+            if !is_led(self, p) {
+                continue;
+            }
             self.set_support(At::Node(*node), *before)?;
         }
-        for Prescription { node, motion, .. } in then.iter().filter(|p| p.node < nodes) {
+        for p @ Prescription { node, motion, .. } in then {
+            if !is_led(self, p) {
+                continue;
+            }
             let support = self.support(At::Node(*node))?;
             self.set_support(At::Node(*node), Support { position: Some(*motion), attached: false, ..support })?;
         }

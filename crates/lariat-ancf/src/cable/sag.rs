@@ -22,13 +22,15 @@ use super::Cable;
 use super::layout::{along_polyline, normal_of};
 use super::unstrained::unstrain;
 use crate::model::{Corner, Drawn};
+use crate::support::SlopeSupport;
 use nalgebra::{Rotation3, Unit};
 
 impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn can_turn_slack(&self) -> bool {
-        let at_rest = || self.time() == 0.0 && self.velocities().iter().all(|v| *v == 0.0);
-        self.sagging.as_ref().is_some_and(|sagging| at_rest() && sagging.laid == self.positions())
+        let is_clamped = || self.model.supports.iter().any(|(_, support)| support.slope != SlopeSupport::Free);
+        let sagging = self.sagging.as_ref();
+        sagging.is_some_and(|sagging| self.is_as_begun() && !is_clamped() && sagging.laid == self.positions())
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

@@ -3,7 +3,7 @@
 use super::reel::Winding;
 use super::{Cable, Snapshot};
 use crate::error::{Error, require, require_finite};
-use crate::support::SlopeSupport;
+use crate::support::Prescription;
 use crate::term::EnergyLaw;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -31,7 +31,8 @@ impl Cable {
 
     /// Restores a state; the run then continues bitwise as it did from there (if supports, loads,
     /// effects and integrator are as they were, else from its positions and velocities). What is
-    /// [prescribed](Self::prescribe) is restored, too.
+    /// [prescribed](Self::prescribe) is restored, too; if anything was since, the run continues from
+    /// positions and velocities.
     ///
     /// # Errors
     /// [`Error::WrongCount`] if the state is of a cable with another number of nodes,
@@ -49,6 +50,7 @@ impl Cable {
         terms
             .try_for_each(|x| require("term of the energy law (J)", x, true, "a number"))
             .map_err(|e| e.of_cable(self.name()))?;
+        snapshot.prescribed.iter().try_for_each(Prescription::check).map_err(|e| e.of_cable(self.name()))?;
         self.mesh_of_reel(&snapshot, nodes)?;
         let revision = self.revision;
         self.restore_prescribed(&snapshot.prescribed)?;
@@ -152,6 +154,11 @@ impl Cable {
         }
     }
 
+    /// Returns whether it rests, and has not been stepped since it was built or inserted.
+    pub(crate) fn is_as_begun(&self) -> bool {
+        self.time() == self.begins && self.velocities().iter().all(|v| *v == 0.0)
+    }
+
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn speed(&self) -> f64 {
         let squared = |v: &[f64]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -170,17 +177,17 @@ impl Cable {
     pub(crate) fn set_time(&mut self, time: f64) -> Result<(), Error> {
         require("time (s)", time, true, "a number")?;
         let later = time - self.time();
+        if self.begins == self.time() {
+            self.begins = time;
+        }
         self.model.loads.iter_mut().for_each(|load| load.start += later);
         for (_, support) in &mut self.model.supports {
-            let slope = match &mut support.slope {
-                SlopeSupport::Prescribed(motion) => Some(motion),
-                _ => None,
-            };
-            support.position.iter_mut().chain(slope).for_each(|motion| motion.delay(later));
+            support.delay(later);
         }
         if let Some(torsion) = &mut self.model.effects.torsion {
             torsion.delay(later);
         }
+        self.snapshot.prescribed.iter_mut().for_each(|led| led.delay(later));
         self.snapshot.state.time = time;
         self.sync_reel();
         self.revise();

@@ -41,6 +41,7 @@ impl Cable {
             support.turn(&mut self.snapshot.state.q[6 * node + 3..6 * node + 6]);
             self.follow_twist(&before);
         }
+        self.follow_holds();
         self.revise();
         Ok(())
     }
@@ -96,7 +97,7 @@ impl Cable {
 
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn is_held_still(&self) -> bool {
-        self.model.supports.iter().all(|(_, support)| support.is_still())
+        self.model.supports.iter().all(|(_, support)| support.is_still_from(self.time()))
             && self.is_reel_still()
             && self.is_spin_still()
     }

@@ -15,8 +15,8 @@ pub struct TorsionReading {
     pub nodes: [usize; 2],
     /// Twist of the material in rad, right-handed positive, whole turns included.
     pub twist: f64,
-    /// Torque in N m about the axis in the direction of arc length, on what holds the first node;
-    /// its opposite acts on what holds the last.
+    /// Elastic torque in N m about the axis in the direction of arc length, on what holds the first
+    /// node; its opposite acts on what holds the last. That of damping is beside it.
     pub torque: f64,
     /// Twist per length in rad/m of unstretched cable.
     pub twist_rate: f64,
@@ -132,12 +132,21 @@ impl Cable {
         slope.try_normalize(0.0).map_or_else(Vector3::zeros, |axis| axis * torque)
     }
 
+    /// Makes the twists those of the present holds: what lost a hold has lost its twist.
+    pub(crate) fn follow_holds(&mut self) {
+        if self.snapshot.state.memory.torsion.is_some() {
+            let mut segments = Vec::new();
+            self.model.find_segments(&mut segments);
+            self.model.follow_holds(&segments, &mut self.snapshot.state.memory.torsion);
+        }
+    }
+
     /// Advances the twists by a change of the coordinates from `before` that no step made.
     pub(crate) fn follow_twist(&mut self, before: &[f64]) {
         let (mut segments, mut secant) = (Vec::new(), Vec::new());
         self.model.find_segments(&mut segments);
         // as built it is not twisted, whatever its shape
-        if segments.is_empty() || self.snapshot.state.memory.torsion.is_none() {
+        if self.snapshot.state.memory.torsion.is_none() {
             return;
         }
         let state = &mut self.snapshot.state;

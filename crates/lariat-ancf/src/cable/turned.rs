@@ -113,8 +113,7 @@ impl Cable {
     pub(crate) fn drawn_position(&self, at: At) -> Option<Vector3<f64>> {
         let as_drawn = self.as_drawn.as_ref()?;
         let node = self.node(at).ok()?;
-        let still = self.time() == 0.0 && self.velocities().iter().all(|v| *v == 0.0);
-        let found = still && as_drawn.turned == self.positions() && self.model.support(node).is_none();
+        let found = self.is_as_begun() && as_drawn.turned == self.positions() && self.model.support(node).is_none();
         found.then(|| Vector3::from_column_slice(&as_drawn.drawn[6 * node..6 * node + 3]))
     }
 

@@ -155,7 +155,7 @@ impl State {
                 x.copy_from_slice((turn * Vector3::new(x[0], x[1], x[2])).as_slice());
             }
         };
-        let Memory { acceleration, algorithmic, differences, contacts, pairs, .. } = &mut self.memory;
+        let Memory { acceleration, algorithmic, differences, contacts, pairs, torsion, .. } = &mut self.memory;
         for vectors in [&mut self.q, &mut self.v, acceleration, algorithmic, &mut differences.velocity] {
             turned(vectors);
         }
@@ -164,6 +164,7 @@ impl State {
         self.q.chunks_exact_mut(6).for_each(|q| q.iter_mut().zip(by.iter()).for_each(|(q, by)| *q += by));
         contacts.clear();
         pairs.clear();
+        torsion.iter_mut().flatten().for_each(|twist| twist.turn(turn));
     }
 
     /// Checks that this is a finite state of `size` coordinates; `cable` is the name for the error.

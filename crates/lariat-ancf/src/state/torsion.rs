@@ -1,6 +1,7 @@
 //! The twist of a cable with torsion, as part of its state.
 
 use crate::error::{Error, require};
+use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 /// Twist of the material between two neighbouring nodes that hold its spin. Plain data, part of a
@@ -19,6 +20,15 @@ pub struct SegmentTwist {
 }
 
 impl SegmentTwist {
+    /// Turns the bodies that hold both nodes, with the cable: its twist stays.
+    pub(super) fn turn(&mut self, turn: &UnitQuaternion<f64>) {
+        for attitude in self.attitudes.iter_mut().flatten() {
+            let [w, i, j, k] = *attitude;
+            let turned = turn * UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k));
+            *attitude = [turned.w, turned.i, turned.j, turned.k];
+        }
+    }
+
     /// Checks that its numbers are finite.
     pub(super) fn check(&self) -> Result<(), Error> {
         let attitudes = self.attitudes.iter().flatten().flatten();

@@ -277,7 +277,7 @@ pub enum Warning {
     },
     /// Its elements are too long for the kinks of its torque.
     #[error(
-        "cable {cable:?}: its torque times the length of an element is {ratio:.2} EI: above 1.5 the torque at which it kinks is off by more than 0.2 %, and kinks          are not resolved; try elements = {enough} instead of {elements}"
+        "cable {cable:?}: its torque times the length of an element is {ratio:.2} EI: above 1.5 the torque at which it kinks is off by more than 0.2 %, and kinks are not resolved; try elements = {enough} instead of {elements}"
     )]
     CoarseTwist {
         /// Name of the cable.
@@ -291,7 +291,7 @@ pub enum Warning {
     },
     /// Twist was lost where it is too sharply bent.
     #[error(
-        "cable {cable:?}: {slips} times it turned by more than 120 degrees within half an element or a step, where its twist is not kept, so its torque is probably          wrong: try more elements, shorter steps, or more stiffness in bending"
+        "cable {cable:?}: {slips} times it turned by more than 120 degrees within half an element or a step, where its twist is not kept, so its torque is probably wrong: try more elements, shorter steps, or more stiffness in bending"
     )]
     TwistSlips {
         /// Name of the cable.

@@ -113,7 +113,8 @@ class Integrator:
         of an explicit method. ``dissipation`` of "discrete-gradient", 0 to 1/16: a motion of angular frequency w loses the share
         a (h w)^3/2 of its amplitude per radian in steps of h; default 1/16, with a tolerance 1/256.
 
-        Raises UnknownIntegratorError, StepControlError, NoErrorEstimateError, NoStabilityLimitError, InvalidValueError.
+        Raises UnknownIntegratorError, StepControlError, NoErrorEstimateError, NoErrorNormError, NoStabilityLimitError,
+        InvalidValueError.
         """
 
     @property

@@ -80,7 +80,10 @@ class Torsion:
 
     @classmethod
     def round(cls, bending_stiffness: float, poisson: float) -> Torsion:
-        """That of a solid round section or a round tube: GJ = EI/(1 + nu)."""
+        """That of a solid round section or a round tube: GJ = EI/(1 + nu). Raises ValueError for a Poisson number that is not
+        between -1 and 0.5."""
+        if not -1.0 < poisson <= 0.5:
+            raise ValueError(f"Poisson number must be above -1 and at most 0.5, not {poisson}")
         return cls(bending_stiffness / (1.0 + poisson))
 
 

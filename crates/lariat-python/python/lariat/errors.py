@@ -153,6 +153,10 @@ class NoErrorEstimateError(Error, ValueError):
     """A tolerance for a method that does not estimate its error: method."""
 
 
+class NoErrorNormError(Error, ValueError):
+    """A norm that the estimate of a method does not have: method, norm."""
+
+
 class NoStabilityLimitError(Error, ValueError):
     """A share of the stability limit for an implicit method: method."""
 

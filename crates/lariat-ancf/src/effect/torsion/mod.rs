@@ -9,17 +9,17 @@
 //! Where the section is isotropic nothing acts on the spin of an inner cross-section, so the torque
 //! M is the same all along a *segment*, the cable between two *holds*: clamps that also hold the
 //! spin. Phi is the twist of its material, a function of the coordinates that are there already and
-//! of the attitudes of both holds, modulo a full turn ([`pair`], [`element`]). It is advanced by
+//! of the attitudes of both holds, modulo a full turn (`pair`, `element`). It is advanced by
 //! exact increments; the state is one number per segment. The force on the coordinates is -M
 //! dPhi/dq, the torque on the first hold +M t and on the last -M t.
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | [`direction`] | directions of slopes, regularised |
-//! | [`pair`] | twist between two directions |
-//! | [`element`] | twist of an element: gradient, Hessian, exact change |
-//! | [`segment`] | segments of a cable, their torques, and what the state holds of them |
-//! | [`rank`] | the solution with K g g^T added to the matrix |
+//! | `direction` | directions of slopes, regularised |
+//! | `pair` | twist between two directions |
+//! | `element` | twist of an element: gradient, Hessian, exact change |
+//! | `segment` | segments of a cable, their torques, and what the state holds of them |
+//! | `rank` | the solution with K g g^T added to the matrix |
 //!
 //! # Validity
 //!

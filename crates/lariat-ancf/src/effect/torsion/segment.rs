@@ -136,7 +136,8 @@ impl Segment {
     }
 }
 
-/// Makes the twists of a state those of its present segments. As built, they are the initial twist;
+/// Makes the twists of a state those of its present segments. As built, they are the initial twist,
+/// from when two nodes hold it;
 /// a new hold holds the twist that is there, and what lost a hold has lost its twist.
 pub(crate) fn follow_holds(
     torsion: &Torsion,
@@ -149,6 +150,7 @@ pub(crate) fn follow_holds(
     };
     match state {
         Some(twists) if is_right(twists) => {}
+        None if segments.is_empty() => {}
         Some(twists) => *twists = segments.iter().map(|segment| segment.left_of(elements, twists)).collect(),
         None => {
             let all: f64 = segments.iter().map(|segment| segment.stiffness.recip()).sum();
