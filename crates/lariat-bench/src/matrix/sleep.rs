@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! A weight of 0.25 kg hangs at rest on a damped rope, with the feature in its quiet form. At
-//! [`CHANGE`] it changes: a flow rises, a reel turns, an obstacle moves. The world that may sleep is
+//! `CHANGE` it changes: a flow rises, a reel turns, an obstacle moves. The world that may sleep is
 //! then where the world that may not is.
 //!
 //! # Alternatives considered
