@@ -392,3 +392,65 @@ fn what_does_not_carry_torsion_is_refused() {
     let error = set.get_mut(rope).unwrap().add_reel(At::Start, Reel::default()).unwrap_err().to_string();
     assert!(error.contains("torsion"), "{error}");
 }
+
+/// Two bodies on a bent, twisted cable that are moved and turned together go on as those that were
+/// not: the twist stays.
+///
+/// Reference: the same world without the move; the laws do not depend on the place.
+#[test]
+fn a_bent_cable_keeps_its_twist_when_its_bodies_are_moved() {
+    let run = |turn: Option<Vector>| {
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::ZERO;
+        let (start, end) = (Vector3::zeros(), Vector3::new(0.6, -0.6, 0.0));
+        let bodies = [(start, Vector3::x()), (end, Vector3::y())]
+            .map(|(at, axis)| disc(&mut world, 0.4, [3e-3, 4e-3], at, axis));
+        let mut set = CableSet::new();
+        let rope = cable(start, end, 0.03, 0.2).points([start, Vector3::new(0.6, 0.0, 0.0), end]).elements(8);
+        let rope = set.insert(rope.build().unwrap());
+        for (at, body) in [(At::Start, bodies[0]), (At::End, bodies[1])] {
+            set.attach(&world, rope, at, body, Vector::ZERO, AttachmentKind::Clamp).unwrap();
+        }
+        (0..20).for_each(|_| set.step(&mut world).unwrap());
+        if let Some(turn) = turn {
+            let by = Pose::new(Vector::new(1.0, -2.0, 0.5), turn);
+            set.move_bodies(&mut world, &bodies, &by).unwrap();
+        }
+        let twists: Vec<f64> = (0..40)
+            .map(|_| {
+                set.step(&mut world).unwrap();
+                twist(&set, rope)
+            })
+            .collect();
+        twists
+    };
+    let stays = run(None);
+    let most = stays.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    assert!(most > 0.1, "{stays:?}");
+    for turn in [Vector::new(1.5, 0.0, 0.0), Vector::new(0.4, -1.2, 2.0)] {
+        for (moved, stays) in run(Some(turn)).iter().zip(&stays) {
+            assert!((moved - stays).abs() < 1e-3 * most, "{turn:?}: {moved} for {stays}");
+        }
+    }
+}
+
+/// A hold that is lost and given back between two steps has lost the twist.
+///
+/// Reference: what turns freely bears no torque.
+#[test]
+fn a_hold_that_is_given_back_begins_without_twist() {
+    let mut world = PhysicsWorld::new();
+    world.gravity = Vector::ZERO;
+    let down = -Vector3::y();
+    let body = disc(&mut world, 0.5, [2e-3, 1e-3], down, Vector3::y());
+    let mut set = CableSet::new();
+    let rope = set.insert(cable(Vector3::zeros(), down, 0.02, 0.5).clamp(At::Start).build().unwrap());
+    let held = set.attach(&world, rope, At::End, body, Vector::ZERO, AttachmentKind::Clamp).unwrap();
+    set.step(&mut world).unwrap();
+    assert!(twist(&set, rope).abs() > 2.0);
+    set.detach(&mut world, held).unwrap();
+    set.attach(&world, rope, At::End, body, Vector::ZERO, AttachmentKind::Clamp).unwrap();
+    set.step(&mut world).unwrap();
+    // the disc goes on turning with what the first step gave it
+    assert!(twist(&set, rope).abs() < 0.2, "{}", twist(&set, rope));
+}

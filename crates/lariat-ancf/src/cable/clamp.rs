@@ -53,8 +53,9 @@ impl Cable {
     }
 
     /// Holds the position of a node where it is, and its tangent along `direction` (any length).
-    /// The tangent is turned at once. A cable at rest that has not been stepped takes the shape of static
-    /// equilibrium between its clamps, as one that is [built](crate::CableBuilder::clamp_along) so.
+    /// The tangent is turned at once. A cable at rest that has not been stepped takes the shape of
+    /// static equilibrium between its clamps, as one that is
+    /// [built](crate::CableBuilder::clamp_along) so.
     ///
     /// # Errors
     /// As [`node`](Self::node); [`Error::InvalidValue`] for a direction that is not finite or zero.

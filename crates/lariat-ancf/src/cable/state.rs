@@ -31,8 +31,8 @@ impl Cable {
 
     /// Restores a state; the run then continues bitwise as it did from there (if supports, loads,
     /// effects and integrator are as they were, else from its positions and velocities). What is
-    /// [prescribed](Self::prescribe) is restored, too; if anything was since, the run continues from
-    /// positions and velocities.
+    /// [prescribed](Self::prescribe) is restored, too; if anything was since, the run continues
+    /// from positions and velocities.
     ///
     /// # Errors
     /// [`Error::WrongCount`] if the state is of a cable with another number of nodes,
