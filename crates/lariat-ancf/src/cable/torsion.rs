@@ -98,10 +98,10 @@ impl Cable {
             return f(self);
         }
         let known = self.snapshot.state.memory.torsion.clone();
-        self.system.static_torsion.begin(&self.model, &mut self.snapshot.state);
+        self.system.static_torsion.get_or_insert_default().begin(&self.model, &mut self.snapshot.state);
         self.snapshot.state.memory.torsion = known;
         let outcome = f(self);
-        self.system.static_torsion.abandon();
+        self.system.static_torsion = None;
         outcome
     }
 

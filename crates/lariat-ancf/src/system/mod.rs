@@ -89,8 +89,8 @@ pub(crate) struct System {
     pub static_time: f64,
     /// Contact in statics.
     pub static_contact: StaticContact,
-    /// Torsion in statics.
-    pub static_torsion: torsion::StaticTorsion,
+    /// Torsion, in statics alone.
+    pub static_torsion: Option<Box<torsion::StaticTorsion>>,
 }
 
 /// The matrix of an implicit step and its factors; empty between two steps.
@@ -153,7 +153,7 @@ impl System {
             feeds: Feeds::new(model),
             static_time: 0.0,
             static_contact: StaticContact::default(),
-            static_torsion: torsion::StaticTorsion::default(),
+            static_torsion: None,
         })
     }
 

@@ -29,7 +29,7 @@ pub(super) struct StaticSegment {
     pub column: Vec<f64>,
 }
 
-/// Torsion in statics; empty outside of them.
+/// Torsion in statics.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StaticTorsion {
     pub(super) segments: Vec<StaticSegment>,
@@ -62,12 +62,6 @@ impl StaticTorsion {
         self.follow(model, &state.q);
         let own: &mut [SegmentTwist] = state.memory.torsion.as_deref_mut().unwrap_or_default();
         own.iter_mut().zip(&self.segments).for_each(|(to, own)| (to.twist, to.change) = (own.twist, 0.0));
-        self.segments.clear();
-    }
-
-    /// Ends without a result.
-    pub fn abandon(&mut self) {
-        self.segments.clear();
     }
 
     /// Returns whether nothing acts.

@@ -12,10 +12,9 @@ use crate::linalg::Definiteness;
 impl Equations<'_> {
     /// Adds torsion to the factored step matrix; returns what that makes of a kind.
     pub(super) fn factor_torsion(&mut self, kind: Definiteness) -> Result<Definiteness, StepFailure> {
-        if self.system.static_torsion.is_empty() {
+        let Some(mut torsion) = self.system.static_torsion.take_if(|torsion| !torsion.is_empty()) else {
             return Ok(kind);
-        }
-        let mut torsion = core::mem::take(&mut self.system.static_torsion);
+        };
         for own in &mut torsion.segments {
             own.column.clear();
             own.column.resize(6 * self.model.nodes(), 0.0);
@@ -24,11 +23,11 @@ impl Equations<'_> {
             self.diagnostics.solves += 1;
             self.system.step.factorisation.solve(self.system.level, &mut own.column);
         }
-        let StaticTorsion { segments, scale, rank, .. } = &mut torsion;
+        let StaticTorsion { segments, scale, rank, .. } = &mut *torsion;
         let product = |s: usize, t: usize| dot(&segments[s].gradient, &segments[t].column[segments[s].segment.range()]);
         let outcome = rank.factor(segments.len(), |s| *scale * segments[s].segment.stiffness, product);
         let removed = rank.negative();
-        self.system.static_torsion = torsion;
+        self.system.static_torsion = Some(torsion);
         outcome?;
         Ok(match kind {
             Definiteness::Indefinite { negative: Some(count) } if count == removed => Definiteness::PositiveDefinite,
@@ -41,7 +40,8 @@ impl Equations<'_> {
 
     /// Completes a solution with the step matrix by torsion.
     pub(super) fn complete_by_torsion(&mut self, x: &mut [f64]) {
-        let StaticTorsion { segments, rank, .. } = &mut self.system.static_torsion;
+        let Some(torsion) = &mut self.system.static_torsion else { return };
+        let StaticTorsion { segments, rank, .. } = &mut **torsion;
         if segments.is_empty() {
             return;
         }

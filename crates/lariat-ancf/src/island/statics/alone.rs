@@ -90,7 +90,10 @@ impl Cable {
             support.prescribe(time, &mut q[6 * node..6 * node + 6], &mut [0.0; 6]);
         }
         self.system.static_contact.begin(model, time, &q);
-        self.system.static_torsion.begin(&self.model, &mut self.snapshot.state);
+        if self.model.effects.torsion.is_some() {
+            let torsion = self.system.static_torsion.get_or_insert_default();
+            torsion.begin(&self.model, &mut self.snapshot.state);
+        }
     }
 
     /// Ends it, and returns the contacts of the present shape.
@@ -98,7 +101,9 @@ impl Cable {
         let mut contacts = Vec::new();
         self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
         self.system.static_contact.end();
-        self.system.static_torsion.end(&self.model, &mut self.snapshot.state);
+        if let Some(mut torsion) = self.system.static_torsion.take() {
+            torsion.end(&self.model, &mut self.snapshot.state);
+        }
         contacts
     }
 

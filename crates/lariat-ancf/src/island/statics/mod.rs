@@ -102,7 +102,7 @@ pub fn equilibrium(
         cable.model.loads = loads;
         if outcome.is_err() {
             cable.system.static_contact.end();
-            cable.system.static_torsion.abandon();
+            cable.system.static_torsion = None;
             (cable.snapshot, cable.model.supports) = (snapshot, supports);
             cable.sync_reel();
         }
