@@ -291,3 +291,27 @@ fn an_end_that_is_attached_later_is_where_it_was_drawn() {
         assert_eq!(moved.drawn_position(At::End), None);
     }
 }
+
+/// A cable that is clamped at its start and then fixed or clamped at its end is held at both drawn ends, as one that is built so.
+///
+/// *Source.* The same cable by the builder.
+#[test]
+fn an_end_that_is_held_later_is_held_where_it_was_drawn() {
+    for (length, up) in [(1.0, true), (1.25, false), (1.25, true)] {
+        let drawn = || {
+            let end = Vector3::new(1.0, 0.0, 0.0);
+            let section = Section::from_stiffness(1e4, 0.5, 0.2).unwrap();
+            Cable::builder().points([Vector3::zeros(), end]).length(length).elements(12).section(section)
+        };
+        let direction = if up { Vector3::new(1.0, 1.0, 0.0) } else { Vector3::x() };
+        let mut later = drawn().build().unwrap();
+        later.clamp_along(At::Start, direction).unwrap();
+        later.fix(At::End).unwrap();
+        assert!((later.node_position(12) - Vector3::new(1.0, 0.0, 0.0)).norm() < 1e-9, "{length} {up}");
+        let built = drawn().clamp_along(At::Start, direction).fix(At::End).build().unwrap();
+        for node in 0..13 {
+            let off = (later.node_position(node) - built.node_position(node)).norm();
+            assert!(off < 1e-6, "{length} {up}, node {node}: {off}");
+        }
+    }
+}

@@ -42,8 +42,8 @@ use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::{Rotation3, Vector3};
 
 impl Cable {
-    /// Holds the position of a node where it is and the direction of its tangent: that of the
-    /// present tangent, and at an end of a slack cable that is as it was laid, that of the drawing,
+    /// Holds the position of a node where it is, or an end that turned with a clamp where it was
+    /// drawn, and the direction of its tangent: that of the present tangent, and at an end of a slack cable that is as it was laid, that of the drawing,
     /// to which the cable is bent.
     ///
     /// # Errors
@@ -64,6 +64,7 @@ impl Cable {
     }
 
     fn clamp_to(&mut self, at: At, direction: Option<Vector3<f64>>) -> Result<(), Error> {
+        self.lay_as_drawn(at)?;
         let node = self.node(at)?;
         let direction = self.direction_of_clamp(node, direction)?;
         let position = Some(Motion::fixed(self.node_position(node)));

@@ -46,11 +46,14 @@ impl Cable {
         Ok(())
     }
 
-    /// Holds the position of a node where it is; its slope is free.
+    /// Holds the position of a node where it is; its slope is free. An end that turned with a
+    /// [clamp](Self::clamp) is held where it was drawn.
     ///
     /// # Errors
     /// As [`node`](Self::node).
     pub fn fix(&mut self, at: impl Into<At>) -> Result<(), Error> {
+        let at = at.into();
+        self.lay_as_drawn(at)?;
         let node = self.node(at)?;
         let position = Some(Motion::fixed(self.node_position(node)));
         self.set_support(At::Node(node), Support { position, slope: SlopeSupport::Free, attached: false })

@@ -36,6 +36,8 @@ impl Scene {
 
     /// Holds a node of a cable to a point of a body.
     pub fn pin(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
+        let at = at.into();
+        self.lay_back(cable, at, body, &anchor);
         let node = self.cables[cable].attach(at).unwrap();
         self.pins.push(PinConstraint { cable, node, body, anchor, direction: None });
         self
@@ -43,11 +45,22 @@ impl Scene {
 
     /// Clamps a node of a cable, in its present direction, to a point of a body.
     pub fn clamp(mut self, cable: usize, at: impl Into<At>, body: usize, anchor: Vector3<f64>) -> Self {
+        let at = at.into();
+        self.lay_back(cable, at, body, &anchor);
         let node = self.cables[cable].attach_clamped(at, None).unwrap();
         let slope = Vector3::from_column_slice(&self.cables[cable].positions()[6 * node + 3..6 * node + 6]);
         let direction = Some(self.bodies[body].rotation.inverse() * slope.normalize());
         self.pins.push(PinConstraint { cable, node, body, anchor, direction });
         self
+    }
+
+    /// Lays an end that turned with a clamp back where it was drawn, if a body is there.
+    fn lay_back(&mut self, cable: usize, at: At, body: usize, anchor: &Vector3<f64>) {
+        let (cable, body) = (&mut self.cables[cable], &self.bodies[body]);
+        let target = body.position + body.rotation * anchor;
+        if cable.drawn_position(at).is_some_and(|drawn| (drawn - target).norm() < 1e-6) {
+            cable.lay_as_drawn(at).unwrap();
+        }
     }
 
     pub fn try_step(&mut self, dt: f64) -> Result<(), lariat_ancf::Error> {
