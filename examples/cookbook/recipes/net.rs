@@ -77,7 +77,8 @@ impl Stage for Net {
             self.twines.iter().map(|&twine| self.cables.get(twine).map_or(0, |cable| cable.contacts().count())).sum();
         let line =
             format!("the ball came down to {:.2} m and is at {:.2} m on {touches} contacts", self.lowest, place.y);
-        let stays = f64::from(place.x.hypot(place.z)) < 0.4 && self.lowest > -1.5;
+        // where it comes to rest depends on how it rolls
+        let stays = f64::from(place.x.hypot(place.z)) < 0.5 * MESH * SIZE as f64 && self.lowest > -1.5;
         if stays && touches > 2 { Ok(line) } else { Err(line.into()) }
     }
 }
