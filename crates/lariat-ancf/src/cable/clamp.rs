@@ -43,8 +43,8 @@ use nalgebra::{Rotation3, Vector3};
 
 impl Cable {
     /// Holds the position of a node where it is, or an end that turned with a clamp where it was
-    /// drawn, and the direction of its tangent: that of the present tangent, and at an end of a slack cable that is as it was laid, that of the drawing,
-    /// to which the cable is bent.
+    /// drawn, and the direction of its tangent: that of the present tangent, and at an end of a
+    /// slack cable that is as it was laid, that of the drawing, to which the cable is bent.
     ///
     /// # Errors
     /// As [`node`](Self::node); [`Error::NoTangent`] if the tangent has no length.
