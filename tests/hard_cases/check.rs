@@ -1,8 +1,9 @@
 //! Runs the cases of a family and compares them with the known misses.
 
+use lariat_bench::misses::read;
 use lariat_bench::stability::family::Family;
 use lariat_bench::stability::job::{Selection, jobs, run};
-use lariat_bench::stability::misses::{Miss, differences, read};
+use lariat_bench::stability::misses::{Miss, differences};
 use lariat_bench::stability::outcome::Row;
 use std::collections::BTreeSet;
 use std::io::Write;

@@ -9,8 +9,9 @@
 //! saved state; the same features far apart; a world that may not sleep.
 
 use lariat_bench::matrix::feature::{Feature, Pair};
-use lariat_bench::matrix::misses::{Miss, differences, of, read};
+use lariat_bench::matrix::misses::{Miss, differences, of};
 use lariat_bench::matrix::run::{Outcome, Row, run};
+use lariat_bench::misses::read;
 use lariat_bench::stability::outcome::Check;
 use lariat_rapier::lariat_ancf::{AxialLaw, EffectWork, Fidelity, island};
 use std::collections::BTreeSet;

@@ -142,26 +142,28 @@ impl Support {
         self.position.iter_mut().chain(slope).for_each(|motion| motion.delay(by));
     }
 
-    /// Whether what it prescribes stands still from a time in s on.
-    pub(crate) fn is_still_from(&self, time: f64) -> bool {
-        let stands = |motion: &Motion| motion.is_still() || motion.is_over(time);
-        self.position.as_ref().is_none_or(stands)
-            && !matches!(&self.slope, SlopeSupport::Prescribed(motion) if !stands(motion))
-    }
-
-    /// Whether what it prescribes stands still.
-    pub(crate) fn is_still(&self) -> bool {
-        self.position.as_ref().is_none_or(Motion::is_still)
-            && !matches!(&self.slope, SlopeSupport::Prescribed(motion) if !motion.is_still())
-    }
-
-    /// Refuses motions that are not finite and directions that are not unit vectors.
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Returns what it prescribes.
+    fn motions(&self) -> impl Iterator<Item = &Motion> {
         let slope = match &self.slope {
             SlopeSupport::Prescribed(motion) => Some(motion),
             _ => None,
         };
-        for motion in self.position.iter().chain(slope) {
+        self.position.iter().chain(slope)
+    }
+
+    /// Whether what it prescribes stands still from a time in s on.
+    pub(crate) fn is_still_from(&self, time: f64) -> bool {
+        self.motions().all(|motion| motion.is_still() || motion.is_over(time))
+    }
+
+    /// Whether what it prescribes stands still.
+    pub(crate) fn is_still(&self) -> bool {
+        self.motions().all(Motion::is_still)
+    }
+
+    /// Refuses motions that are not finite and directions that are not unit vectors.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        for motion in self.motions() {
             require("prescribed motion", if motion.is_finite() { 0.0 } else { f64::NAN }, true, "a number")?;
         }
         if let SlopeSupport::Direction(d) | SlopeSupport::Attached(d) = &self.slope {

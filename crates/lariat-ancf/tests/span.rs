@@ -12,9 +12,11 @@ fn line(span: [f64; 2], elements: usize) -> CableBuilder {
         .fix(At::End)
 }
 
-/// Horizontal force and length of the elastic catenary with level ends whose sag or middle tension is given, by bisection.
+/// Horizontal force and length of the elastic catenary with level ends whose sag or middle tension
+/// is given, by bisection.
 ///
-/// *Source.* Irvine 1981, section 2.2, with Hooke's law; the Green law of the cable differs by 3/2 of the strain, here below 1e-4.
+/// *Source.* Irvine 1981, section 2.2, with Hooke's law; the Green law of the cable differs by 3/2
+/// of the strain, here below 1e-4.
 fn catenary(span: f64, weight: f64, axial: f64, miss: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let of = |force: f64| {
         // length L0 such that the span fits
@@ -81,8 +83,9 @@ fn a_length_by_tension_or_sag_is_that_of_the_catenary() {
 
 /// Ropes and chains by name have mass, EA and breaking load of their catalogues.
 ///
-/// *Source.* Studless R4 chain of 100 mm: 199 kg/m and 9.86 MN (DNV-OS-E302: 0.0274 d^2 (44 - 0.08 d) kN, d in mm); polyester of 1.38 floats no
-/// more than its solid does: submerged weight 0.257 of that in air.
+/// *Source.* Studless R4 chain of 100 mm: 199 kg/m and 9.86 MN (DNV-OS-E302: 0.0274 d^2 (44 - 0.08
+/// d) kN, d in mm); polyester of 1.38 floats no more than its solid does: submerged weight 0.257 of
+/// that in air.
 #[test]
 fn ropes_and_chains_by_name_have_the_numbers_of_their_catalogues() {
     let chain = Section::of(RopeMaterial::Chain, 0.1).unwrap();

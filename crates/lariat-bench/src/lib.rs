@@ -9,7 +9,7 @@
 //! | [`coupling`] | the cost of a cable on a body: `lariat coupling` |
 //! | [`table1`] | the paper's Table 1, measured: `lariat table1` |
 //! | `single`, `double` | the worlds of the hard cases and Rapier's own ropes, over rapier3d and rapier3d-f64 |
-
+//! | [`misses`] | runs that miss a bound, compared with those that are known to |
 //! | [`table`], [`page`] | tables and pages as Markdown and CSV |
 //! | [`clock`], [`machine`], [`numbers`] | CPU time of repeated runs, the machine, extremes and formats |
 //!
@@ -21,6 +21,7 @@ mod double;
 mod error;
 pub mod machine;
 pub mod matrix;
+pub mod misses;
 pub mod numbers;
 pub mod page;
 pub mod report;

@@ -44,8 +44,8 @@ fn twist(set: &CableSet, cable: CableHandle) -> f64 {
     set.get(cable).unwrap().torsion()[0].twist
 }
 
-/// Returns the angular frequency in rad/s of a twist that oscillates about zero, by its first and last
-/// passage through it within a time (s).
+/// Returns the angular frequency in rad/s of a twist that oscillates about zero, by its first and
+/// last passage through it within a time (s).
 fn frequency(world: &mut PhysicsWorld, set: &mut CableSet, cable: CableHandle, time: f64) -> f64 {
     let dt = f64::from(world.integration_parameters.dt);
     let (mut before, mut passages) = (twist(set, cable), Vec::new());
@@ -62,8 +62,8 @@ fn frequency(world: &mut PhysicsWorld, set: &mut CableSet, cable: CableHandle, t
     std::f64::consts::PI * count as f64 / (passages[count] - passages[0])
 }
 
-/// A disc that hangs on a twisted cable turns and turns back, at 1/60 s: discs and stiffnesses over a
-/// decade.
+/// A disc that hangs on a twisted cable turns and turns back, at 1/60 s: discs and stiffnesses over
+/// a decade.
 ///
 /// Reference: sqrt(GJ/(L J)); the cable itself has no inertia about its axis.
 #[test]
@@ -164,8 +164,8 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A hundred twisted cables that are thrown with two bodies, or with one on a support, make no energy: GJ,
-/// masses, twists, speeds and meshes over decades. None is refused.
+/// A hundred twisted cables that are thrown with two bodies, or with one on a support, make no
+/// energy: GJ, masses, twists, speeds and meshes over decades. None is refused.
 ///
 /// Reference: the energy law; single precision of Rapier's states is left, 1e-5.
 #[test]
@@ -227,8 +227,8 @@ fn hoist(start: EndSpin) -> (PhysicsWorld, CableSet, CableHandle) {
     (world, set, rope)
 }
 
-/// World and set go through bincode every quarter of a second while a motor winds the cable: the run
-/// continues to the bit.
+/// World and set go through bincode every quarter of a second while a motor winds the cable: the
+/// run continues to the bit.
 ///
 /// Reference: the contract.
 #[test]
@@ -250,8 +250,8 @@ fn a_snapshot_of_a_twisted_cable_replays_to_the_bit() {
     assert!(twist(&set, rope).abs() > 0.1);
 }
 
-/// The torque acts on the body: the attachment's moment is it, and a motor's work is the energy that the
-/// world gains.
+/// The torque acts on the body: the attachment's moment is it, and a motor's work is the energy
+/// that the world gains.
 ///
 /// Reference: statics of torque; conservation of energy.
 #[test]
@@ -276,10 +276,11 @@ fn the_work_of_a_motor_is_the_energy_of_the_disc() {
     assert!((along - torque).abs() < 0.05 * torque.abs() + 1e-5, "{along} N m, {torque} N m");
 }
 
-/// At more turns a body spins through a larger angle in a step, and the pendulum is slower by the error of
-/// its rotation: of second order in the step.
+/// At more turns a body spins through a larger angle in a step, and the pendulum is slower by the
+/// error of its rotation: of second order in the step.
 ///
-/// Reference: sqrt(GJ/(L J)); the mean of (h w)^2/12 over the swing, (h W)^2/24 for the largest rate W.
+/// Reference: sqrt(GJ/(L J)); the mean of (h w)^2/12 over the swing, (h W)^2/24 for the largest
+/// rate W.
 #[test]
 fn a_disc_that_turns_by_turns_is_right_to_second_order() {
     let (stiffness, length, inertia, turns) = (0.2, 1.5, 4e-2, 1.5);
@@ -344,7 +345,8 @@ fn torsion_is_damped_by_its_time() {
     assert!((dissipated / lost - 1.0).abs() < 1e-3, "{dissipated} J of {lost} J");
 }
 
-/// A wound-down disc falls asleep, and wakes when the other end is given a motor, which twists it on.
+/// A wound-down disc falls asleep, and wakes when the other end is given a motor, which twists it
+/// on.
 ///
 /// Reference: the contract; the motor's angle once the disc has followed it.
 #[test]
@@ -380,7 +382,8 @@ fn a_disc_that_has_come_to_rest_sleeps_until_a_motor_is_set() {
     assert!((turned + Vector3::y() * 0.25 * TAU).norm() < 0.05, "{turned:?}");
 }
 
-/// Statics of twisted cables and bodies together, and a reel on a twisted cable, are refused by name.
+/// Statics of twisted cables and bodies together, and a reel on a twisted cable, are refused by
+/// name.
 ///
 /// Reference: the contract.
 #[test]

@@ -16,7 +16,8 @@ fn parsed(rest: &str) -> Result<Scene, String> {
 
 /// A line with a sag or a pretension has the length with which it hangs so.
 ///
-/// *Source.* A shallow parabola: H = w L^2/(8 d), L = span (1 + 8/3 (d/span)^2)/(1 + H/EA), within (d/span)^4 and the strain squared.
+/// *Source.* A shallow parabola: H = w L^2/(8 d), L = span (1 + 8/3 (d/span)^2)/(1 + H/EA), within
+/// (d/span)^4 and the strain squared.
 #[test]
 fn a_sag_or_a_pretension_gives_the_length() {
     let section = "axial_stiffness = 2.0e6\nbending_stiffness = 0.0\nmass_per_length = 1.5\n";

@@ -69,8 +69,8 @@ fn run(replaced: &[(&str, &str)]) -> Result<(Summary, [Rows; 2]), String> {
     Ok((summary, ["twist", "energy"].map(rows)))
 }
 
-/// The probe has twist, torque, rate and energy; the hook turns with the frequency of a torsional pendulum,
-/// and the balance closes.
+/// The probe has twist, torque, rate and energy; the hook turns with the frequency of a torsional
+/// pendulum, and the balance closes.
 ///
 /// *Source.* sqrt(GJ/(L J)); conservation of energy.
 #[test]
@@ -95,7 +95,8 @@ fn a_hook_of_a_scene_turns_on_its_rope() {
     assert!(balance.made() < 1e-6, "{balance:?}");
 }
 
-/// A motor turns the hook on, by a Poisson number with EI = 0.026 N m^2 for the same GJ, and damping lets it rest.
+/// A motor turns the hook on, by a Poisson number with EI = 0.026 N m^2 for the same GJ, and
+/// damping lets it rest.
 ///
 /// *Source.* The turns of the motor, once it has stopped; damping of Kelvin-Voigt.
 #[test]

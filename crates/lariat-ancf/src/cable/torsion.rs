@@ -132,25 +132,24 @@ impl Cable {
         slope.try_normalize(0.0).map_or_else(Vector3::zeros, |axis| axis * torque)
     }
 
-    /// Makes the twists those of the present holds: what lost a hold has lost its twist.
-    pub(crate) fn follow_holds(&mut self) {
+    /// Makes the twists those of the present holds, and returns the segments: what lost a hold has
+    /// lost its twist. As built the cable is not twisted, whatever its shape and holds.
+    pub(crate) fn follow_holds(&mut self) -> Vec<Segment> {
+        let mut segments = Vec::new();
         if self.snapshot.state.memory.torsion.is_some() {
-            let mut segments = Vec::new();
             self.model.find_segments(&mut segments);
             self.model.follow_holds(&segments, &mut self.snapshot.state.memory.torsion);
         }
+        segments
     }
 
     /// Advances the twists by a change of the coordinates from `before` that no step made.
     pub(crate) fn follow_twist(&mut self, before: &[f64]) {
-        let (mut segments, mut secant) = (Vec::new(), Vec::new());
-        self.model.find_segments(&mut segments);
-        // as built it is not twisted, whatever its shape
-        if self.snapshot.state.memory.torsion.is_none() {
+        let segments = self.follow_holds();
+        if segments.is_empty() {
             return;
         }
-        let state = &mut self.snapshot.state;
-        self.model.follow_holds(&segments, &mut state.memory.torsion);
+        let (state, mut secant) = (&mut self.snapshot.state, Vec::new());
         let step: Vec<f64> = state.q.iter().zip(before).map(|(now, then)| now - then).collect();
         for (segment, twist) in segments.iter().zip(state.memory.torsion.iter_mut().flatten()) {
             twist.twist += segment.change(&self.model.elements, before, &step, &mut secant)[0];

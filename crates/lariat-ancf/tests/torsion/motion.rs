@@ -65,8 +65,8 @@ fn thrown_twisted_cables_keep_their_energy_law() {
     }
 }
 
-/// A slack cable whose end clamp a motor spins at 2 turns/s, at rest in its sag before: torque by time in s, work, and
-/// by how much the energy law misses.
+/// A slack cable whose end clamp a motor spins at 2 turns/s, at rest in its sag before: torque by
+/// time in s, work, and by how much the energy law misses.
 fn motor(elements: usize, step: f64, times: &[usize]) -> (Vec<f64>, f64, f64) {
     let spin = EndSpin::Motor { rate: 2.0, from: 0.0, until: 3.0 };
     let torsion = Torsion { end: spin, ..Torsion::new(4e-3) };
@@ -100,8 +100,8 @@ fn motor(elements: usize, step: f64, times: &[usize]) -> (Vec<f64>, f64, f64) {
     (torques, law.supports, off)
 }
 
-/// A motor twists a slack cable: the torque is that of the twist that its writhe leaves, and the energy law
-/// closes with the work of the motor.
+/// A motor twists a slack cable: the torque is that of the twist that its writhe leaves, and the
+/// energy law closes with the work of the motor.
 ///
 /// *Source.* The same run with twice the elements at an eighth of the step.
 #[test]

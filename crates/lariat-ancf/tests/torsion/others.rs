@@ -72,8 +72,8 @@ fn bad_numbers_are_refused() {
     assert_eq!(Torsion::round(3.0, 0.5).unwrap().stiffness, 2.0);
 }
 
-/// Where a ball, a pin or a swivel holds an end, torsion does nothing: the run is that without it, to the bit,
-/// no twist is evaluated, and it is warned of.
+/// Where a ball, a pin or a swivel holds an end, torsion does nothing: the run is that without it,
+/// to the bit, no twist is evaluated, and it is warned of.
 ///
 /// *Source.* The contract.
 #[test]
@@ -130,7 +130,8 @@ fn a_cut_takes_the_twist_of_its_segment_alone() {
     run(&mut cable, 5);
 }
 
-/// An element that is split leaves the twist of its segment, and the run is nearly that without the split.
+/// An element that is split leaves the twist of its segment, and the run is nearly that without the
+/// split.
 ///
 /// *Source.* The twist belongs to the material; the mesh is fine enough.
 #[test]
@@ -167,8 +168,8 @@ fn a_snapshot_continues_to_the_bit() {
     assert_eq!((cable.positions(), cable.torsion()[0].twist), (&q[..], twist));
 }
 
-/// A cable that a motor winds up on itself, with contact: the law closes with the motor's work and the heat of
-/// contacts, and it is never made.
+/// A cable that a motor winds up on itself, with contact: the law closes with the motor's work and
+/// the heat of contacts, and it is never made.
 ///
 /// *Source.* The energy law.
 #[test]
@@ -196,7 +197,8 @@ fn a_wound_up_cable_that_touches_itself_keeps_its_energy_law() {
     assert!(law.supports > 0.05, "{law:?}");
 }
 
-/// A torque that the mesh does not resolve is told, and the elements that the warning names are enough.
+/// A torque that the mesh does not resolve is told, and the elements that the warning names are
+/// enough.
 ///
 /// *Source.* |M| l/EI of the twist.
 #[test]

@@ -3,7 +3,8 @@
 use lariat_ancf::{At, Cable, Effects, Motion, Section, SlopeSupport, Support, Torsion, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A weightless rod of 1 m through given positions and slopes at equal arc lengths, both ends clamped.
+/// A weightless rod of 1 m through given positions and slopes at equal arc lengths, both ends
+/// clamped.
 fn rod(elements: usize, axial: f64, torsion: Torsion, at: impl Fn(f64) -> [Vector3<f64>; 2]) -> Cable {
     let mut cable = Cable::builder()
         .points([Vector3::zeros(), Vector3::x()])
@@ -60,12 +61,12 @@ fn arc(elements: usize) -> (f64, f64, Vector3<f64>) {
     (energy.total(), cable.torsion()[0].torque, cable.reactions().unwrap()[0].force)
 }
 
-/// An arc between clamps, moved and twisted into space, is right to fourth order in the length of its
-/// elements: energy, torque and force.
+/// An arc between clamps, moved and twisted into space, is right to fourth order in the length of
+/// its elements: energy, torque and force.
 ///
-/// *Source.* The extensible continuum (Green strain, EI kappa^2 and GJ tau^2 per material length) by
-/// shooting, residual 5e-16: L = EI = 1, EA 1e5, GJ 2/3; an untwisted quarter circle whose end clamp
-/// moves to (0.45, 0.5, 0.2) and spins by 3 rad.
+/// *Source.* The extensible continuum (Green strain, EI kappa^2 and GJ tau^2 per material length)
+/// by shooting, residual 5e-16: L = EI = 1, EA 1e5, GJ 2/3; an untwisted quarter circle whose end
+/// clamp moves to (0.45, 0.5, 0.2) and spins by 3 rad.
 #[test]
 fn a_twisted_arc_converges_to_the_continuum_in_fourth_order() {
     let force = Vector3::new(17.1032129, 18.3847675, -0.8394107);
@@ -83,8 +84,8 @@ fn a_twisted_arc_converges_to_the_continuum_in_fourth_order() {
     }
 }
 
-/// Whether the straight rod under a torque (N m) and a tension (N) between clamps is stable; the end
-/// clamp slides along the rod.
+/// Whether the straight rod under a torque (N m) and a tension (N) between clamps is stable; the
+/// end clamp slides along the rod.
 fn is_straight_rod_stable(elements: usize, torque: f64, tension: f64) -> bool {
     let stiffness = 0.7;
     let torsion = Torsion { initial_twist: torque / (TAU * stiffness), ..Torsion::new(stiffness) };
@@ -110,11 +111,11 @@ fn critical(elements: usize, tension: f64, about: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// A clamped rod under torque and tension buckles at Greenhill's torque, to fourth order in the length
-/// of its elements.
+/// A clamped rod under torque and tension buckles at Greenhill's torque, to fourth order in the
+/// length of its elements.
 ///
-/// *Source.* The characteristic equation of the clamped rod (Greenhill 1883), L = EI = 1: 8.98682 without
-/// tension (the root of tan(M/2) = M/2), 10.4288564 at T = 10.
+/// *Source.* The characteristic equation of the clamped rod (Greenhill 1883), L = EI = 1: 8.98682
+/// without tension (the root of tan(M/2) = M/2), 10.4288564 at T = 10.
 #[test]
 fn a_twisted_rod_buckles_at_the_torque_of_greenhill() {
     for (tension, exact) in [(0.0, 8.98682), (10.0, 10.4288564)] {
@@ -125,8 +126,8 @@ fn a_twisted_rod_buckles_at_the_torque_of_greenhill() {
     }
 }
 
-/// A clamped ring of a twisted rod is unstable beyond Michell's twist, whatever GJ/EI: two modes besides
-/// the turn about the clamp, which has no stiffness, cross zero there.
+/// A clamped ring of a twisted rod is unstable beyond Michell's twist, whatever GJ/EI: two modes
+/// besides the turn about the clamp, which has no stiffness, cross zero there.
 ///
 /// *Source.* Michell 1889; Zajac 1962: M R/EI = sqrt 3, a twist of 2 pi sqrt 3 EI/GJ.
 #[test]
@@ -151,9 +152,9 @@ fn a_twisted_ring_leaves_its_plane_at_the_torque_of_michell() {
 
 /// A helix under the force and torque that hold it stays what it is.
 ///
-/// *Source.* Kirchhoff: F = (M - EI tau) kappa/cos(alpha) along the axis, moment about it
-/// EI kappa cos(alpha) + M sin(alpha), with the pitch angle alpha, kappa = cos(alpha)^2/R and tau = sin(alpha)
-/// cos(alpha)/R; here 0.75 turns, L = EI = 1, GJ 2/3, M = 5.
+/// *Source.* Kirchhoff: F = (M - EI tau) kappa/cos(alpha) along the axis, moment about it EI kappa
+/// cos(alpha) + M sin(alpha), with the pitch angle alpha, kappa = cos(alpha)^2/R and tau =
+/// sin(alpha) cos(alpha)/R; here 0.75 turns, L = EI = 1, GJ 2/3, M = 5.
 #[test]
 fn a_helix_is_held_by_the_wrench_of_kirchhoff() {
     let (alpha, torque): (f64, f64) = (0.8, 5.0);

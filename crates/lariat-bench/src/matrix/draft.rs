@@ -1,7 +1,7 @@
 //! The drawing of a small scene, to which features are added one after the other.
 //!
-//! A rope of 1.2 m and 0.12 kg, drawn level from the origin, with 0.25 kg at its end where a body asks
-//! for it. Axial waves are resolved by steps of 1/240 s, so that a finer run shows what
+//! A rope of 1.2 m and 0.12 kg, drawn level from the origin, with 0.25 kg at its end where a body
+//! asks for it. Axial waves are resolved by steps of 1/240 s, so that a finer run shows what
 //! features do, not what the step leaves out. What touches itself is drawn as a coil.
 
 use super::feature::Feature;

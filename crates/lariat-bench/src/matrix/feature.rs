@@ -1,193 +1,122 @@
 //! The features whose pairs are run.
 //!
 //! The list is checked against the lists of the code: each effect ([`EffectWork::by_key`]) and each
-//! term of a step ([`lariat_ancf::island::terms`]) is that of some feature, and so is each axial law
-//! and each kind of reel. A new one without a feature fails a test.
+//! term of a step ([`lariat_ancf::island::terms`]) is that of some feature, and so is each axial
+//! law and each kind of reel. A new one without a feature fails a test.
 //!
 //! [`EffectWork::by_key`]: lariat_ancf::EffectWork::by_key
 
-/// Something that a cable can have, that holds it, or that is done with it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Feature {
+/// Makes the features of a list: what each is, and its name in tables and on the command line.
+macro_rules! features {
+    ($($(#[$what:meta])* $feature:ident = $name:literal,)*) => {
+        /// Something that a cable can have, that holds it, or that is done with it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Feature {
+            $($(#[$what])* $feature,)*
+        }
+
+        impl Feature {
+            /// All features.
+            pub const ALL: [Feature; [$($name),*].len()] = [$(Feature::$feature),*];
+
+            /// Returns the name in tables and on the command line.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Feature::$feature => $name,)*
+                }
+            }
+        }
+    };
+}
+
+features! {
     /// An end that the world holds.
-    Held,
+    Held = "held end",
     /// An end whose direction the world holds, too.
-    Clamped,
+    Clamped = "clamped end",
     /// An end whose motion is prescribed.
-    Prescribed,
+    Prescribed = "prescribed end",
     /// An end on a fixed body.
-    FixedBody,
+    FixedBody = "fixed body",
     /// An end on a kinematic body that moves.
-    KinematicBody,
+    KinematicBody = "kinematic body",
     /// A free dynamic body.
-    DynamicBody,
+    DynamicBody = "dynamic body",
     /// A body on an impulse joint.
-    ImpulseJoint,
+    ImpulseJoint = "body on an impulse joint",
     /// A body on a multibody joint.
-    MultibodyJoint,
+    MultibodyJoint = "body on a multibody joint",
     /// Contact with a fixed floor.
-    TouchesFloor,
+    TouchesFloor = "contact with a floor",
     /// Contact with a kinematic body that moves.
-    TouchesMoving,
+    TouchesMoving = "contact with a moving body",
     /// Contact with a loose dynamic body.
-    TouchesLoose,
+    TouchesLoose = "contact with a loose body",
     /// Contact with itself.
-    TouchesItself,
+    TouchesItself = "contact with itself",
     /// Contact with another cable.
-    TouchesCable,
+    TouchesCable = "contact with a cable",
     /// A reel whose rate is given.
-    ReelByRate,
+    ReelByRate = "reel by rate",
     /// A reel with a motor of limited force.
-    ReelByForce,
+    ReelByForce = "reel by force",
     /// A reel that is a brake.
-    ReelBrake,
+    ReelBrake = "brake",
     /// A reel that turns freely.
-    FreeSpool,
+    FreeSpool = "free spool",
     /// A sheave between two cables.
-    Sheave,
+    Sheave = "sheave",
     /// A drum that is a body.
-    Drum,
+    Drum = "drum",
     /// Damping of strain.
-    AxialDamping,
+    AxialDamping = "axial damping",
     /// Damping of curvature.
-    BendingDamping,
+    BendingDamping = "bending damping",
     /// Drag in a fluid at rest.
-    Drag,
+    Drag = "drag",
     /// Drag in a current that grows.
-    Current,
+    Current = "current that grows",
     /// Buoyancy and added mass.
-    Buoyancy,
+    Buoyancy = "buoyancy",
     /// A rest shape.
-    RestShape,
+    RestShape = "rest shape",
     /// Torsion, twisted as built, between clamps.
-    Torsion,
+    Torsion = "torsion",
     /// Gravity scaled for one cable.
-    GravityScale,
+    GravityScale = "scaled gravity",
     /// A line load.
-    LineLoad,
+    LineLoad = "line load",
     /// A force per length of a program.
-    ForceDensity,
+    ForceDensity = "force density",
     /// A point load.
-    PointLoad,
+    PointLoad = "point load",
     /// Hooke's law.
-    HookeLaw,
+    HookeLaw = "Hooke's law",
     /// A law that cannot push.
-    RopeLaw,
+    RopeLaw = "rope law",
     /// A measured law.
-    CurveLaw,
+    CurveLaw = "measured law",
     /// A cable that breaks.
-    Break,
+    Break = "break",
     /// A cable that is cut while it moves.
-    Cut,
+    Cut = "cut",
     /// A start in equilibrium.
-    Statics,
+    Statics = "statics",
     /// A state that is saved and read back in the middle.
-    Snapshot,
+    Snapshot = "snapshot",
     /// Sleep.
-    Sleep,
+    Sleep = "sleep",
     /// A run to a given error.
-    ErrorTarget,
+    ErrorTarget = "given error",
     /// Fidelity game.
-    Game,
+    Game = "game",
     /// Fidelity engineering.
-    Engineering,
+    Engineering = "engineering",
 }
 
 use Feature::*;
 
 impl Feature {
-    /// All features.
-    pub const ALL: [Feature; 41] = [
-        Held,
-        Clamped,
-        Prescribed,
-        FixedBody,
-        KinematicBody,
-        DynamicBody,
-        ImpulseJoint,
-        MultibodyJoint,
-        TouchesFloor,
-        TouchesMoving,
-        TouchesLoose,
-        TouchesItself,
-        TouchesCable,
-        ReelByRate,
-        ReelByForce,
-        ReelBrake,
-        FreeSpool,
-        Sheave,
-        Drum,
-        AxialDamping,
-        BendingDamping,
-        Drag,
-        Current,
-        Buoyancy,
-        RestShape,
-        Torsion,
-        GravityScale,
-        LineLoad,
-        ForceDensity,
-        PointLoad,
-        HookeLaw,
-        RopeLaw,
-        CurveLaw,
-        Break,
-        Cut,
-        Statics,
-        Snapshot,
-        Sleep,
-        ErrorTarget,
-        Game,
-        Engineering,
-    ];
-
-    /// Returns the name in tables and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Held => "held end",
-            Clamped => "clamped end",
-            Prescribed => "prescribed end",
-            FixedBody => "fixed body",
-            KinematicBody => "kinematic body",
-            DynamicBody => "dynamic body",
-            ImpulseJoint => "body on an impulse joint",
-            MultibodyJoint => "body on a multibody joint",
-            TouchesFloor => "contact with a floor",
-            TouchesMoving => "contact with a moving body",
-            TouchesLoose => "contact with a loose body",
-            TouchesItself => "contact with itself",
-            TouchesCable => "contact with a cable",
-            ReelByRate => "reel by rate",
-            ReelByForce => "reel by force",
-            ReelBrake => "brake",
-            FreeSpool => "free spool",
-            Sheave => "sheave",
-            Drum => "drum",
-            AxialDamping => "axial damping",
-            BendingDamping => "bending damping",
-            Drag => "drag",
-            Current => "current that grows",
-            Buoyancy => "buoyancy",
-            RestShape => "rest shape",
-            Torsion => "torsion",
-            GravityScale => "scaled gravity",
-            LineLoad => "line load",
-            ForceDensity => "force density",
-            PointLoad => "point load",
-            HookeLaw => "Hooke's law",
-            RopeLaw => "rope law",
-            CurveLaw => "measured law",
-            Break => "break",
-            Cut => "cut",
-            Statics => "statics",
-            Snapshot => "snapshot",
-            Sleep => "sleep",
-            ErrorTarget => "given error",
-            Game => "game",
-            Engineering => "engineering",
-        }
-    }
-
     /// Returns the key of the effect that it is, as the mechanics lists it.
     pub fn effect(self) -> Option<&'static str> {
         Some(match self {

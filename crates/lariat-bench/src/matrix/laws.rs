@@ -12,9 +12,9 @@
 //!
 //! # Validity
 //!
-//! What contacts take is not in W, so the energy law says what is made, not what is lost. Host steps
-//! decide when a cable breaks: the finer run breaks up to one host step before. Where it has other parts,
-//! centres of mass are compared.
+//! What contacts take is not in W, so the energy law says what is made, not what is lost. Host
+//! steps decide when a cable breaks: the finer run breaks up to one host step before. Where it has
+//! other parts, centres of mass are compared.
 
 use super::draft::Draft;
 use super::feature::{Feature, Pair};
@@ -31,17 +31,18 @@ const FINER: f64 = 8.0;
 /// Distance in m of two scenes that do not act on each other.
 const APART: f64 = 12.0;
 
-/// Largest energy made, as a share of the largest kinetic and strain energy: that of the hard cases.
+/// Largest energy made, as a share of the largest kinetic and strain energy: that of the hard
+/// cases.
 const MADE: f64 = 0.01;
 /// Largest change of momentum, as a share: bodies have single precision.
 const MOMENTUM: f64 = 1e-4;
 /// Largest difference from the finer run, as a share of how far anything moved.
 const FINE: f64 = 0.05;
-/// Least motion in m that differences are compared with: 5 % of it are the 8.8e-3 m by which fidelity
-/// `game` is documented to miss a payload that swings.
+/// Least motion in m that differences are compared with: 5 % of it are the 8.8e-3 m by which
+/// fidelity `game` is documented to miss a payload that swings.
 const LEAST_MOTION: f64 = 0.176;
-/// Largest difference in m between features beside each other and each alone: single precision, whose
-/// solver takes bodies in another order.
+/// Largest difference in m between features beside each other and each alone: single precision,
+/// whose solver takes bodies in another order.
 const BESIDE: f64 = 1e-6;
 /// Largest motion in m of a scene that starts in equilibrium: positions of bodies are single
 /// precision.
@@ -82,15 +83,23 @@ pub fn built(draft: &Draft, plan: Plan, dt: f64) -> Result<Scene, Ended> {
 /// # Errors
 /// [`Ended`].
 pub fn finish(scene: &mut Scene) -> Result<(), Ended> {
+    finish_and_read(scene, |_| Ok(()))
+}
+
+/// Runs a scene to its end, and reads it after each host step.
+fn finish_and_read(scene: &mut Scene, mut read: impl FnMut(&Scene) -> Result<(), Fault>) -> Result<(), Ended> {
     while scene.time < DURATION - 0.25 * STEP {
-        let first = scene.time == 0.0;
         let time = scene.time;
-        scene.step().map_err(|fault| match first {
-            true => Ended::Refused(fault.to_string()),
-            false => Ended::Failed(time, fault.to_string()),
-        })?;
+        let failed = |fault: Fault| Ended::Failed(time, fault.to_string());
+        scene.step().map_err(|fault| if time == 0.0 { Ended::Refused(fault.to_string()) } else { failed(fault) })?;
+        read(scene).map_err(failed)?;
     }
     Ok(())
+}
+
+/// Returns the larger of two numbers, NaN if one is.
+fn larger(most: f64, x: f64) -> f64 {
+    if x <= most { most } else { x }
 }
 
 /// Runs a pair by itself: energy, a saved state, a finer run.
@@ -104,23 +113,18 @@ pub fn together(features: &[Feature], plan: Plan) -> Result<Vec<Check>, Ended> {
     let first = scene.ledger().map_err(|fault| Ended::Failed(0.0, fault.to_string()))?;
     let (mut most, mut scale) = (0.0f64, first.scale.max(scene.least_energy()));
     let (mut half, mut middle) = (None, start.clone());
-    while scene.time < DURATION - 0.25 * STEP {
-        let before = scene.time;
-        scene.step().map_err(|fault| match before == 0.0 {
-            true => Ended::Refused(fault.to_string()),
-            false => Ended::Failed(before, fault.to_string()),
-        })?;
-        let now = scene.ledger().map_err(|fault| Ended::Failed(before, fault.to_string()))?;
+    finish_and_read(&mut scene, |scene| {
+        let now = scene.ledger()?;
         scale = scale.max(now.scale);
         if let (Some(now), Some(first)) = (now.kept, first.kept) {
-            // NaN is kept
-            most = if now - first <= most { most } else { now - first };
+            most = larger(most, now - first);
         }
         if half.is_none() && scene.time > 0.5 * DURATION {
             half = Some(scene.time);
             middle = scene.positions();
         }
-    }
+        Ok(())
+    })?;
     let end = scene.positions();
     let mut checks = vec![
         Check::at_most("energy made", most / scale, MADE, "energy less the work from outside never grows"),
@@ -162,8 +166,7 @@ pub fn apart(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    // NaN is kept
-    a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, |most, x| if x <= most { most } else { x })
+    a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, larger)
 }
 
 /// Runs a system that nothing from outside acts on: momentum.
@@ -173,22 +176,16 @@ pub fn apart(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> f64 {
 pub fn floating(features: &[Feature]) -> Result<Vec<Check>, Ended> {
     let draft = Draft::of(features, true);
     let mut scene = built(&draft, Plan::default(), STEP)?;
-    let read = |scene: &Scene| scene.momentum().map_err(|fault| Ended::Failed(scene.time, fault.to_string()));
-    let before = read(&scene)?;
+    let before = scene.momentum().map_err(|fault| Ended::Failed(0.0, fault.to_string()))?;
     let (mut most, mut scale) = ([0.0f64; 2], before.map(|p| p.norm()));
-    while scene.time < DURATION - 0.25 * STEP {
-        let first = scene.time == 0.0;
-        scene.step().map_err(|fault| match first {
-            true => Ended::Refused(fault.to_string()),
-            false => Ended::Failed(scene.time, fault.to_string()),
-        })?;
-        let now = read(&scene)?;
+    finish_and_read(&mut scene, |scene| {
+        let now = scene.momentum()?;
         for k in 0..2 {
-            let change = (now[k] - before[k]).norm();
-            most[k] = if change <= most[k] { most[k] } else { change };
+            most[k] = larger(most[k], (now[k] - before[k]).norm());
             scale[k] = scale[k].max(now[k].norm());
         }
-    }
+        Ok(())
+    })?;
     let source = "nothing acts from outside";
     Ok(vec![
         Check::at_most("change of momentum", most[0] / scale[0].max(1e-2), MOMENTUM, source),
@@ -227,7 +224,7 @@ pub fn beside(pair: Pair) -> Result<Check, Ended> {
         |a: &Vector3<f64>, all: &[Vector3<f64>]| all.iter().map(|b| (a - b).norm()).fold(f64::INFINITY, f64::min);
     let together = both.positions();
     let count = together.len() == alone.len();
-    let most = together.iter().map(|a| distance(a, &alone)).fold(0.0, |most: f64, x| if x <= most { most } else { x });
+    let most = together.iter().map(|a| distance(a, &alone)).fold(0.0, larger);
     let value = if count { most } else { f64::INFINITY };
     Ok(Check::at_most("difference from each alone, m", value, BESIDE, "what is far apart does not interact"))
 }

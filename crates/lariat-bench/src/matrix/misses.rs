@@ -1,9 +1,7 @@
-//! Pairs that are known to be refused without a reason, or wrong: a CSV file that the tests compare
-//! with, so that the table is true.
-//!
-//! A pair that becomes worse fails a test, and so does one that is mended and still listed.
+//! Pairs that are known to be refused without a reason, or wrong, [as others](crate::misses).
 
 use super::run::{Outcome, Row};
+use crate::misses;
 use crate::table::{Format, Table, shown};
 use serde::Deserialize;
 
@@ -37,14 +35,6 @@ pub fn of(row: &Row) -> Vec<Miss> {
     }
 }
 
-/// Reads the file of known misses.
-///
-/// # Errors
-/// Those of the CSV format, with the line.
-pub fn read(text: &str) -> Result<Vec<Miss>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
-}
-
 /// Returns misses as a table, in the format of the file.
 pub fn table(misses: &[Miss]) -> Table {
     let columns = vec![
@@ -59,29 +49,29 @@ pub fn table(misses: &[Miss]) -> Table {
 
 /// Compares pairs with the known misses, and returns a line for each difference.
 pub fn differences(rows: &[Row], known: &[Miss]) -> Vec<String> {
-    let mut lines = Vec::new();
-    for row in rows {
+    let of_row = |row: &Row| {
         let name = row.pair.to_string();
-        let now = of(row);
-        let before: Vec<&Miss> = known.iter().filter(|m| m.pair == name).collect();
-        for miss in &now {
-            match before.iter().find(|m| m.kind == miss.kind) {
-                None => lines.push(format!("{name}: {}: a new miss. {}", miss.kind, row.outcome.details())),
-                Some(listed) => {
-                    // NaN is worse than any number
-                    let worse =
-                        |now: f64, then: f64| now.is_nan() && !then.is_nan() || now.abs() > SIGNIFICANT * then.abs();
-                    let grown = miss.value.zip(listed.value).is_some_and(|(now, then)| worse(now, then));
-                    if grown {
-                        lines
-                            .push(format!("{name}: {}: {:?}, listed {:?}: worse", miss.kind, miss.value, listed.value));
-                    }
-                }
-            }
-        }
-        for miss in before.iter().filter(|m| now.iter().all(|n| n.kind != m.kind)) {
-            lines.push(format!("{name}: {}: mended: remove it from matrix_misses.csv", miss.kind));
-        }
+        let listed: Vec<&Miss> = known.iter().filter(|m| m.pair == name).collect();
+        misses::differences(&name, (&of(row), &row.outcome.details()), &listed)
+    };
+    rows.iter().flat_map(of_row).collect()
+}
+
+impl misses::Miss for Miss {
+    const PASSED: &'static str = ": mended: remove it from matrix_misses.csv";
+
+    fn kind(&self) -> &str {
+        &self.kind
     }
-    lines
+
+    fn told_as_new(&self, details: &str) -> String {
+        format!("{}: a new miss. {details}", self.kind)
+    }
+
+    fn change_from(&self, listed: &Self) -> Option<String> {
+        let (now, then) = (self.value?, listed.value?);
+        // NaN is worse than any number
+        let worse = now.is_nan() && !then.is_nan() || now.abs() > SIGNIFICANT * then.abs();
+        worse.then(|| format!("{}: {now:?}, listed {then:?}: worse", self.kind))
+    }
 }

@@ -1,4 +1,5 @@
-//! The matrix as a page: how pairs ended, which are refused and why, which are wrong; every pair as CSV.
+//! The matrix as a page: how pairs ended, which are refused and why, which are wrong; every pair as
+//! CSV.
 
 use super::feature::Feature;
 use super::misses::{self, Miss};

@@ -1,10 +1,8 @@
-//! Runs that are known to miss a bound: a CSV file that the tests compare with.
-//!
-//! A run that misses a bound more than before fails a test, and so does one that improves or
-//! passes, so that the file tells what is true. `lariat stability` writes `stability_misses.csv` in
-//! the same format.
+//! Runs of the hard cases that are known to miss a bound, [as others](crate::misses); one that
+//! improves fails a test, too. `lariat stability` writes `stability_misses.csv` in the same format.
 
 use super::outcome::{Outcome, Row};
+use crate::misses;
 use crate::table::{Format, Table, shown};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -56,14 +54,6 @@ pub fn of(row: &Row) -> Vec<Miss> {
         Outcome::OutOfBounds(checks) => checks.iter().map(|c| miss(c.quantity, c.value, c.nearer_bound())).collect(),
         outcome => vec![miss(outcome.name(), row.completed, 1.0)],
     }
-}
-
-/// Reads the file of known misses.
-///
-/// # Errors
-/// Those of the CSV format, with the line.
-pub fn read(text: &str) -> Result<Vec<Miss>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
 }
 
 /// Returns misses as a table, in the format of the file.
@@ -119,46 +109,42 @@ fn outside(miss: &Miss) -> f64 {
 
 /// Compares runs with the known misses, and returns a line for each difference.
 pub fn differences(rows: &[Row], known: &[Miss]) -> Vec<String> {
-    let mut lines = Vec::new();
-    for row in rows {
+    let of_row = |row: &Row| {
         let name = run_name(row);
-        let now = of(row);
-        let before: Vec<&Miss> = known.iter().filter(|m| m.run() == name).collect();
-        for miss in &now {
-            match before.iter().find(|m| m.kind == miss.kind) {
-                None => lines.push(format!(
-                    "{name}: {} {:.4}, bound {:.4}: a new miss. {}",
-                    miss.kind,
-                    miss.value,
-                    miss.bound,
-                    row.outcome.details()
-                )),
-                Some(listed) => lines.extend(change(listed, miss).map(|change| format!("{name}: {change}"))),
-            }
-        }
-        for miss in before.iter().filter(|m| now.iter().all(|n| n.kind != m.kind)) {
-            lines.push(format!("{name}: {} is within its bound now: remove it from stability_misses.csv", miss.kind));
-        }
-    }
-    lines
+        let listed: Vec<&Miss> = known.iter().filter(|m| m.run() == name).collect();
+        misses::differences(&name, (&of(row), &row.outcome.details()), &listed)
+    };
+    rows.iter().flat_map(of_row).collect()
 }
 
-/// Describes a significant change of a miss.
-fn change(listed: &Miss, now: &Miss) -> Option<String> {
-    if (now.bound - listed.bound).abs() > 1e-6 * listed.bound.abs() {
-        return Some(format!("{}: the bound is {:e}, listed {:e}", now.kind, now.bound, listed.bound));
+impl misses::Miss for Miss {
+    const PASSED: &'static str = " is within its bound now: remove it from stability_misses.csv";
+
+    fn kind(&self) -> &str {
+        &self.kind
     }
-    // away from the bound is worse
-    let outward = (now.value - listed.value) * (listed.value - listed.bound).signum();
-    // a run that failed in its first step has done nothing: its value is 0
-    let share = outward / listed.value.abs().max(1e-3 * listed.bound.abs());
-    let numbers = format!("{} {:.4}, listed {:.4}, bound {:.4}", now.kind, now.value, listed.value, now.bound);
-    // written so that NaN is worse
-    if share < -SIGNIFICANT {
-        Some(format!("{numbers}: better, update stability_misses.csv"))
-    } else if share <= SIGNIFICANT {
-        None
-    } else {
-        Some(format!("{numbers}: worse"))
+
+    fn told_as_new(&self, details: &str) -> String {
+        format!("{} {:.4}, bound {:.4}: a new miss. {details}", self.kind, self.value, self.bound)
+    }
+
+    fn change_from(&self, listed: &Self) -> Option<String> {
+        let now = self;
+        if (now.bound - listed.bound).abs() > 1e-6 * listed.bound.abs() {
+            return Some(format!("{}: the bound is {:e}, listed {:e}", now.kind, now.bound, listed.bound));
+        }
+        // away from the bound is worse
+        let outward = (now.value - listed.value) * (listed.value - listed.bound).signum();
+        // a run that failed in its first step has done nothing: its value is 0
+        let share = outward / listed.value.abs().max(1e-3 * listed.bound.abs());
+        let numbers = format!("{} {:.4}, listed {:.4}, bound {:.4}", now.kind, now.value, listed.value, now.bound);
+        // written so that NaN is worse
+        if share < -SIGNIFICANT {
+            Some(format!("{numbers}: better, update stability_misses.csv"))
+        } else if share <= SIGNIFICANT {
+            None
+        } else {
+            Some(format!("{numbers}: worse"))
+        }
     }
 }

@@ -8,9 +8,13 @@
 //! opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a
 //! collider.
 
+use crate::contact::broad::held_pieces;
+use crate::contents::Contents;
 use crate::convert::{to_vector, vector};
+use crate::handle::CableHandle;
 use crate::scales::read::{DEEPER, OPPOSITE, POINTS, TOUCHING};
 use lariat_ancf::Cable;
+use lariat_ancf::coupling::Coupling;
 use nalgebra::Vector3;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, Ray};
 use rapier::math::Real;
@@ -86,8 +90,20 @@ fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>, touching
     deepest.or_else(|| through.then_some((0.5 * (start + end), 0.5 * length)))
 }
 
+/// Returns the [pieces](held_pieces) of a cable that do not touch a collider, by its shape; none of
+/// a cable that is not attached to the body of the collider.
+pub(crate) fn held_beside(
+    contents: &Contents,
+    handle: CableHandle,
+    cable: &Cable,
+    collider: &Collider,
+) -> Vec<[f64; 2]> {
+    let inside = |x: &Vector3<f64>| -f64::from(collider.shape().distance_to_local_point(to_vector(x), false));
+    held_pieces(contents, handle, collider, cable.contact_radius(), inside)
+}
+
 /// Returns the distance in m of a point from the surface of a collider, and whether it is inside.
-fn depth(collider: &Collider, point: &Vector3<f64>) -> (f64, bool) {
+pub(crate) fn depth(collider: &Collider, point: &Vector3<f64>) -> (f64, bool) {
     let surface = collider.shape().project_point(collider.position(), to_vector(point), false);
     ((vector(surface.point) - point).norm(), surface.is_inside)
 }

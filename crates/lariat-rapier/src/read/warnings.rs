@@ -5,7 +5,6 @@
 //! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time.
 
 use crate::body::unsettled::Unsettled;
-use crate::contact::broad::held_pieces;
 use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::contents::gaps::OpenGap;
@@ -13,10 +12,9 @@ use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
-use crate::read::inside::deepest_beside;
+use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
 use crate::scales::read::JOLT;
-use ::nalgebra::Vector3;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
 use rapier::dynamics::RigidBodyType;
@@ -126,13 +124,12 @@ pub(crate) fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
         for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
-            let own = contents.attachments.values().any(|a| a.cable == handle && Some(a.body) == shape.parent());
+            let except = held_beside(contents, handle, &slot.cable, shape);
+            let own = !except.is_empty();
             let touches = slot.cable.effects().contact.is_some() && slot.rules.allow(shape);
             if own && !touches {
                 continue;
             }
-            let inside = |x: &Vector3<f64>| -f64::from(shape.shape().distance_to_local_point(to_vector(x), false));
-            let except = held_pieces(contents, handle, shape, slot.cable.contact_radius(), inside);
             if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
                 let name = slot.cable.name().to_string();
                 warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth, own });

@@ -20,16 +20,13 @@
 //!
 //! Refusing it: most ropes on crates begin so.
 
-use crate::contact::broad::held_pieces;
 use crate::contents::Contents;
-use crate::convert::{to_vector, vector};
 use crate::error::Error;
 use crate::handle::CableHandle;
-use crate::read::inside::deepest_beside;
+use crate::read::inside::{deepest_beside, depth, held_beside};
 use crate::scales::set::{PLANES, SAME_CLEARANCE, SAMPLES};
 use lariat_ancf::Cable;
 use lariat_ancf::coupling::Coupling;
-use nalgebra::Vector3;
 use rapier::geometry::Collider;
 use rapier::pipeline::PhysicsWorld;
 use std::f64::consts::TAU;
@@ -38,7 +35,6 @@ use std::f64::consts::TAU;
 struct Near<'a> {
     collider: &'a Collider,
     except: Vec<[f64; 2]>,
-    own: bool,
 }
 
 /// Turns the slack cables that have not moved yet out of the bodies that they are attached to:
@@ -53,17 +49,12 @@ pub(super) fn draw_outside(contents: &mut Contents, world: &PhysicsWorld, handle
     if slot.cable.effects().contact.is_none() || !slot.cable.can_turn_slack() {
         return Ok(());
     }
-    let radius = slot.cable.contact_radius();
     let touched = world.colliders.iter().map(|(_, c)| c).filter(|c| !c.is_sensor() && slot.rules.allow(c));
     let near: Vec<Near<'_>> = touched
-        .map(|collider| {
-            let own = contents.attachments.values().any(|a| a.cable == handle && Some(a.body) == collider.parent());
-            let inside = |x: &Vector3<f64>| -f64::from(collider.shape().distance_to_local_point(to_vector(x), false));
-            let except = held_pieces(contents, handle, collider, radius, inside);
-            Near { collider, except, own }
-        })
+        .map(|collider| Near { collider, except: held_beside(contents, handle, &slot.cable, collider) })
         .collect();
-    let own = |near: &&Near<'_>| near.own;
+    // what it is attached to has such pieces
+    let own = |near: &&Near<'_>| !near.except.is_empty();
     let runs_through = |cable: &Cable, near: &Near<'_>| deepest_beside(cable, near.collider, &near.except).is_some();
     if !near.iter().filter(own).any(|near| runs_through(&slot.cable, near)) {
         return Ok(());
@@ -95,10 +86,8 @@ fn clearance(cable: &Cable, near: &[Near<'_>]) -> f64 {
     for s in places {
         let Ok(sample) = cable.sample(s) else { continue };
         for near in near.iter().filter(|near| !near.except.iter().any(|[from, to]| (from..=to).contains(&&s))) {
-            let surface =
-                near.collider.shape().project_point(near.collider.position(), to_vector(&sample.position), false);
-            let distance = (vector(surface.point) - sample.position).norm();
-            least = least.min(if surface.is_inside { -distance } else { distance });
+            let (distance, is_inside) = depth(near.collider, &sample.position);
+            least = least.min(if is_inside { -distance } else { distance });
         }
     }
     least

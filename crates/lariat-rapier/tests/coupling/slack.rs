@@ -5,7 +5,8 @@ use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, Fidelity, Section,
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Warning};
 
-/// A body on which a rope of this length is tied, its other end 2 m away at the same height; the rope's contact is given before or after.
+/// A body on which a rope of this length is tied, its other end 2 m away at the same height; the
+/// rope's contact is given before or after.
 fn tied(
     shape: SharedShape,
     mass: Real,
@@ -39,9 +40,11 @@ fn tied(
     (world, set, rope)
 }
 
-/// A slack rope on top of a body begins beside it, whatever its shape, mass and mesh, and what falls with it gains no energy.
+/// A slack rope on top of a body begins beside it, whatever its shape, mass and mesh, and what
+/// falls with it gains no energy.
 ///
-/// *Source.* Conservation of energy: body and rope fall from rest, so the total does not rise above that of the start.
+/// *Source.* Conservation of energy: body and rope fall from rest, so the total does not rise above
+/// that of the start.
 #[test]
 fn a_slack_rope_begins_beside_the_body_that_it_is_tied_to() {
     let shapes = [
@@ -80,7 +83,8 @@ fn a_slack_rope_begins_beside_the_body_that_it_is_tied_to() {
     }
 }
 
-/// A slack rope that is clear of its body hangs along gravity as before, and two of the same are the same.
+/// A slack rope that is clear of its body hangs along gravity as before, and two of the same are
+/// the same.
 #[test]
 fn a_slack_rope_that_is_clear_hangs_along_gravity() {
     let (_, set, rope) = tied(SharedShape::cuboid(0.1, 0.1, 0.1), 10.0, [0.0, -0.1, 0.0], 2.6, 12, false);

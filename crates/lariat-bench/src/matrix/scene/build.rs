@@ -1,19 +1,14 @@
-//! A scene: the world that a drawing becomes, its steps, and what is read from it.
+//! The world that a drawing becomes.
 
-use super::draft::{CUT, Draft, Hold, Kind, LENGTH, RADIUS, Thing, Wound};
-use super::feature::Feature;
-use crate::single::convert::{from_rapier, to_rapier};
-use lariat_ancf::coupling::Coupling;
+use super::{Fault, Scene};
+use crate::matrix::draft::{CUT, Draft, Hold, Kind, LENGTH, RADIUS, Thing, Wound};
+use crate::single::convert::to_rapier;
 use lariat_ancf::{
     At, Cable, CableBuilder, CablePoint, Contact, Damping, Fidelity, ForceDensity, Motion, Reel, Support, Vector3,
-    Warning,
 };
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Drum, Event, SheaveOptions};
+use lariat_rapier::{AttachmentKind, CableHandle, Drum, SheaveOptions};
 use std::sync::Arc;
-
-/// An error of a scene.
-pub type Fault = Box<dyn std::error::Error + Send + Sync>;
 
 /// Spin of a scene that floats, in rad/s.
 const SPIN: f64 = 3.0;
@@ -23,14 +18,11 @@ const DRUM: f64 = 0.1;
 const MASS: Real = 0.25;
 /// Half side of a body in m.
 const HALF: f64 = 0.04;
-/// Bodies that the coupling adds are heavier than this, in kg, and belong to no scene.
-const HEAVIEST_BODY: f64 = 1e8;
-
 /// A force per length of a program, in N/m: a push that swings in time and grows with height.
 #[derive(Debug)]
-struct Swing {
+pub(super) struct Swing {
     /// When it begins, in s.
-    from: f64,
+    pub from: f64,
 }
 
 impl ForceDensity for Swing {
@@ -44,44 +36,7 @@ impl ForceDensity for Swing {
     }
 }
 
-/// A world with cables.
-#[derive(Default)]
-pub struct Scene {
-    /// The bodies.
-    pub physics: PhysicsWorld,
-    /// The cables.
-    pub set: CableSet,
-    /// Time in s.
-    pub time: f64,
-    /// Events so far, as far as they tell of energy that was made.
-    pub made: Vec<String>,
-    /// Cables that are cut, and when in s.
-    cuts: Vec<(CableHandle, f64)>,
-    /// When the force density of the ropes begins, in s, if they have one.
-    forced: Option<f64>,
-}
-
-/// Energies and works up to now, in J.
-#[derive(Clone, Copy, Debug)]
-pub struct Ledger {
-    /// Kinetic, strain and gravity energy of all, less all work on it but that of contacts; `None`
-    /// where that is not known: of a drum, the energy of what it winds up.
-    pub kept: Option<f64>,
-    /// Kinetic and strain energy.
-    pub scale: f64,
-}
-
 impl Scene {
-    /// Returns an empty world whose host steps have a length in s.
-    pub fn new(dt: f64, floats: bool) -> Scene {
-        let mut scene = Scene { physics: PhysicsWorld::new(), set: CableSet::new(), ..Scene::default() };
-        scene.physics.integration_parameters.dt = dt as Real;
-        if floats {
-            scene.physics.gravity = Vector::ZERO;
-        }
-        scene
-    }
-
     /// Adds what a drawing shows.
     ///
     /// # Errors
@@ -185,9 +140,8 @@ impl Scene {
     fn hold(&mut self, draft: &Draft, cable: CableHandle, (at, share): (At, f64), hold: Hold) -> Result<(), Fault> {
         match hold {
             Hold::Free => {}
-            Hold::World if draft.clamps => self.set.get_mut(cable)?.clamp(at)?,
-            Hold::World => self.set.get_mut(cable)?.fix(at)?,
-            Hold::Clamp => self.set.get_mut(cable)?.clamp(at)?,
+            Hold::World if !draft.clamps => self.set.get_mut(cable)?.fix(at)?,
+            Hold::World | Hold::Clamp => self.set.get_mut(cable)?.clamp(at)?,
             Hold::Motion => {
                 let x = draft.point(share);
                 let to = x + Vector3::new(0.02, 0.1, 0.05);
@@ -304,202 +258,5 @@ impl Scene {
             }
         }
         Ok(())
-    }
-
-    /// Advances by one host step, after the cuts that are due.
-    ///
-    /// # Errors
-    /// Those of the crates.
-    pub fn step(&mut self) -> Result<(), Fault> {
-        let due = self.cuts.extract_if(.., |(_, time)| *time < self.time + 1e-4).collect::<Vec<_>>();
-        for (cable, _) in due {
-            let half = 0.5 * self.set.get(cable)?.length();
-            self.set.cut(cable, half)?;
-        }
-        self.set.step(&mut self.physics)?;
-        self.time += f64::from(self.physics.integration_parameters.dt);
-        for event in self.set.take_events() {
-            if let Event::Warning { warning, .. } = &event
-                && matches!(warning, Warning::EnergyMade { .. })
-            {
-                self.made.push(warning.to_string());
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns the first cable that is no other one across it.
-    ///
-    /// # Errors
-    /// None for a scene with one.
-    pub fn rope(&self) -> Result<CableHandle, Fault> {
-        let rope = self.set.iter().find(|(_, cable)| cable.name().starts_with("rope"));
-        rope.map(|(handle, _)| handle).ok_or_else(|| "no rope".into())
-    }
-
-    /// Moves, pushes or turns the bodies and the cable that a feature brought to a scene that hangs.
-    pub fn disturb(&mut self, feature: Feature) {
-        let bodies: Vec<RigidBodyHandle> = self.physics.bodies.iter().map(|(handle, _)| handle).collect();
-        for handle in bodies {
-            let body = &mut self.physics.bodies[handle];
-            let loose = body.gravity_scale() == 0.0;
-            if f64::from(body.mass()) > HEAVIEST_BODY {
-                continue;
-            }
-            match feature {
-                Feature::KinematicBody | Feature::TouchesMoving if body.is_kinematic() => {
-                    body.set_linvel(to_rapier([0.2, 0.0, 0.0]), true);
-                }
-                Feature::FixedBody if body.is_fixed() => {
-                    let to = body.translation() + to_rapier([0.02, 0.0, 0.01]);
-                    body.set_translation(to, true);
-                }
-                Feature::DynamicBody | Feature::ImpulseJoint | Feature::MultibodyJoint if body.is_dynamic() => {
-                    body.add_force(to_rapier([0.5, 5.0, 0.0]), true);
-                }
-                Feature::TouchesLoose if body.is_dynamic() && loose => {
-                    body.set_linvel(to_rapier([1.0, 0.0, 0.0]), true);
-                }
-                Feature::Drum if body.locked_axes().contains(LockedAxes::ROTATION_LOCKED) => {
-                    let free = LockedAxes::all() & !LockedAxes::ROTATION_LOCKED_Z;
-                    body.set_locked_axes(free, true);
-                }
-                _ => {}
-            }
-        }
-        let across = self.set.iter().find(|(_, cable)| cable.name().starts_with("across")).map(|(handle, _)| handle);
-        if feature == Feature::TouchesCable
-            && let Some(cable) = across.and_then(|handle| self.set.get_mut(handle).ok())
-        {
-            for node in [0, cable.nodes() - 1] {
-                let motion = Motion::uniform(self.time, cable.node_position(node), Vector3::x() * 0.3);
-                // the ends are held: they take a motion
-                let _ = cable.set_motion(node, motion);
-            }
-        }
-    }
-
-    /// Steps to a time in s.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step).
-    pub fn run_to(&mut self, time: f64) -> Result<(), Fault> {
-        let dt = f64::from(self.physics.integration_parameters.dt);
-        while self.time < time - 0.5 * dt {
-            self.step()?;
-        }
-        Ok(())
-    }
-
-    /// Saves the state and reads it back; the functions of a program are attached anew.
-    ///
-    /// # Errors
-    /// Those of the format.
-    pub fn save_and_restore(&mut self) -> Result<(), Fault> {
-        let saved = bincode::serialize(&(&self.physics, &self.set))?;
-        (self.physics, self.set) = bincode::deserialize(&saved)?;
-        // parts that were cut off have the function, too
-        let ropes: Vec<CableHandle> =
-            self.set.iter().filter(|(_, cable)| cable.name().starts_with("rope")).map(|(handle, _)| handle).collect();
-        if let Some(from) = self.forced {
-            for cable in ropes {
-                self.set.get_mut(cable)?.add_force_density(Arc::new(Swing { from }))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns the positions of nine points of each cable, and of each dynamic body.
-    pub fn positions(&self) -> Vec<Vector3<f64>> {
-        let of = |cable: &Cable| {
-            let at = |k: usize| cable.length() * k as f64 / 8.0;
-            (0..=8).map(|k| cable.sample(at(k)).map_or(Vector3::repeat(f64::NAN), |s| s.position)).collect::<Vec<_>>()
-        };
-        let bodies = self.bodies().map(|(_, body)| from_rapier(body.translation()));
-        self.set.iter().flat_map(|(_, cable)| of(cable)).chain(bodies).collect()
-    }
-
-    /// Returns the centre of mass of cables and dynamic bodies, in m.
-    pub fn centre(&self) -> Vector3<f64> {
-        let (mut sum, mut mass) = (Vector3::zeros(), 0.0);
-        for (_, cable) in self.set.iter() {
-            let mut s = 0.0;
-            for element in cable.elements() {
-                let own = element.length * element.section.mass_per_length;
-                // Simpson's rule
-                for (share, weight) in [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)] {
-                    let at = cable.sample((s + share * element.length).min(cable.length()));
-                    sum += at.map_or(Vector3::repeat(f64::NAN), |sample| sample.position) * (own * weight);
-                }
-                (s, mass) = (s + element.length, mass + own);
-            }
-        }
-        for (_, body) in self.bodies() {
-            sum += from_rapier(body.center_of_mass()) * f64::from(body.mass());
-            mass += f64::from(body.mass());
-        }
-        sum / mass
-    }
-
-    /// Returns the dynamic bodies of the scene.
-    fn bodies(&self) -> impl Iterator<Item = (RigidBodyHandle, &RigidBody)> {
-        let own = |body: &RigidBody| body.is_dynamic() && f64::from(body.mass()) < HEAVIEST_BODY;
-        self.physics.bodies.iter().filter(move |(_, body)| own(body))
-    }
-
-    /// Returns cables and bodies, to the bit.
-    pub fn bits(&self) -> Vec<u64> {
-        let cables = self.set.iter().flat_map(|(_, cable)| cable.positions().iter().chain(cable.velocities()).copied());
-        let state = |b: &RigidBody| {
-            let (x, r, v, w) = (b.translation(), b.rotation(), b.linvel(), b.angvel());
-            [x.x, x.y, x.z, r.x, r.y, r.z, r.w, v.x, v.y, v.z, w.x, w.y, w.z].map(f64::from)
-        };
-        let bodies = self.bodies().flat_map(|(_, body)| state(body));
-        cables.chain(bodies).map(f64::to_bits).collect()
-    }
-
-    /// Returns energies and works.
-    ///
-    /// # Errors
-    /// Those of the coupling.
-    pub fn ledger(&self) -> Result<Ledger, Fault> {
-        let energy = self.set.energy(&self.physics)?;
-        let cables = &energy.cables;
-        let mut work = 0.0;
-        for (_, cable) in self.set.iter() {
-            let law = cable.energy_law();
-            work += cable.effect_work().total() + law.supports + law.obstacles;
-            // loads are constant: their work is independent of the run's account, which counts all forces on bodies, too
-            for load in cable.loads() {
-                work += load.force.dot(&cable.sample(load.arc_length)?.position);
-            }
-            work += cable.inserted_energy() + cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
-        }
-        for (_, attachment) in self.set.attachments() {
-            let moves = self.physics.bodies.get(attachment.body()).is_some_and(RigidBody::is_dynamic);
-            // what a body that does not give way received from its cable
-            work -= if moves { 0.0 } else { attachment.work() };
-        }
-        let scale = cables.kinetic + cables.axial + cables.bending + energy.bodies_kinetic;
-        let known = self.set.drums().next().is_none();
-        Ok(Ledger { kept: known.then_some(energy.total() - work), scale })
-    }
-
-    /// Returns linear and angular momentum, in kg m/s and kg m^2/s.
-    ///
-    /// # Errors
-    /// Those of the coupling.
-    pub fn momentum(&self) -> Result<[Vector3<f64>; 2], Fault> {
-        let momentum = self.set.momentum(&self.physics)?;
-        Ok([momentum.linear, momentum.angular])
-    }
-
-    /// Returns what the weight of all does over a distance of 1 cm, in J: the smallest energy that
-    /// others are compared with.
-    pub fn least_energy(&self) -> f64 {
-        let cable = |c: &Cable| c.elements().iter().map(|e| e.length * e.section.mass_per_length).sum::<f64>();
-        let cables: f64 = self.set.iter().map(|(_, c)| cable(c)).sum();
-        let bodies: f64 = self.bodies().map(|(_, body)| f64::from(body.mass())).sum();
-        0.0981 * (cables + bodies)
     }
 }
