@@ -40,7 +40,7 @@
 //! - A length unit other than 1 is not supported.
 //! - A [`Snapshot`](lariat_bevy::Snapshot) with attached cables is refused
 //!   ([`Error::ForeignBodies`]), because the bodies are bevy_rapier's.
-//! - The limits of [`lariat_bevy`](lariat_bevy#limits): no contact of cables.
+//! - The limits of [`lariat_bevy`](lariat_bevy#limits).
 
 use bevy::ecs::intern::Interned;
 use bevy::ecs::schedule::ScheduleLabel;

@@ -17,7 +17,7 @@ pub const INTERVAL: f64 = 0.01;
 /// Number of samples from 0 to 2 s.
 pub const SAMPLES: usize = 201;
 
-const BEAM: &str = include_str!("../../../assets/reference/pendulum_converged_tip.csv");
+const BEAM: &str = include_str!("../reference/pendulum_converged_tip.csv");
 
 /// Builds the pendulum, at rest and horizontal.
 ///

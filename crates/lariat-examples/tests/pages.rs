@@ -1,13 +1,13 @@
 //! The pages of the repository: links lead somewhere, the cookbook shows the code that is run, and its recipes do what they say.
 
-#[path = "../cookbook/recipes/mod.rs"]
+#[path = "../../../examples/cookbook/recipes/mod.rs"]
 mod recipes;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
 /// Pages written by hand: of the root, of docs, and of every crate.

@@ -12,11 +12,11 @@ macro_rules! page {
 
 #[cfg(doctest)]
 mod pages {
-    page!(Readme, "../../README.md");
-    page!(Theory, "../../docs/theory.md");
-    page!(Ancf, "../../crates/lariat-ancf/README.md");
-    page!(Rapier, "../../crates/lariat-rapier/README.md");
-    page!(RapierF64, "../../crates/lariat-rapier-f64/README.md");
-    page!(Bevy, "../../crates/lariat-bevy/README.md");
-    page!(Scene, "../../crates/lariat-scene/README.md");
+    page!(Readme, "../../../README.md");
+    page!(Theory, "../../../docs/theory.md");
+    page!(Ancf, "../../lariat-ancf/README.md");
+    page!(Rapier, "../../lariat-rapier/README.md");
+    page!(RapierF64, "../../lariat-rapier-f64/README.md");
+    page!(Bevy, "../../lariat-bevy/README.md");
+    page!(Scene, "../../lariat-scene/README.md");
 }
