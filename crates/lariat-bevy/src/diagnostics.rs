@@ -1,7 +1,7 @@
 //! Counters of all cables of a world, and wall-clock time per stage.
 
 use bevy_ecs::resource::Resource;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 /// Counters and times since [`install`](crate::install) or [`reset`](Self::reset). Cables that were
 /// removed stay counted.

@@ -18,7 +18,7 @@
 //! results are not repeatable.
 
 use core::cell::Cell;
-use std::time::Instant;
+use web_time::Instant;
 
 /// How much work is left.
 #[derive(Clone, Debug)]

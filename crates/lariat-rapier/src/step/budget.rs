@@ -17,7 +17,7 @@ use crate::scales::step::CHEAPEST_STEP;
 use lariat_ancf::integrate::{IntegratorRef, OneStep, WorkLimit};
 use lariat_ancf::{Error, Integrator, Method, StepControl, StepFailure};
 use serde::{Deserialize, Serialize};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 /// The integrator of what is left of a host step.
 pub(crate) const CHEAPEST: Integrator =
