@@ -2,11 +2,13 @@
 
 use crate::convert::{data, object, table};
 use crate::error::{Raise, raise};
+use lariat_scene::command;
 use lariat_scene::run::{self, Options, Recording};
 use lariat_scene::sweep::{self, Row, Source, Store};
 use lariat_scene::{Error, Purpose, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -80,16 +82,35 @@ pub fn import_mjcf(file: &str, text: &str) -> PyResult<String> {
     lariat_scene::mjcf::import(file, text).map_err(raise)
 }
 
+/// Returns the keys of a scene file, those of one table or key (`cable.drag`), or all, as Markdown.
+#[pyfunction]
+pub fn scene_keys(path: Option<&str>) -> PyResult<String> {
+    command::keys(path).map_err(raise)
+}
+
+/// Returns the table of the rules of the elastic forces.
+#[pyfunction]
+pub fn scene_rules() -> String {
+    command::rules()
+}
+
+/// Runs the `lariat` command, and returns its exit code.
+#[pyfunction]
+pub fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| command::run(arguments))
+}
+
 /// Runs a scene, or finds its equilibrium. Returns the summary, the rows of the probes, the exception of a
 /// run that failed, and the run.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides, *, statics=false, progress=None))]
+#[pyo3(signature = (file, text, overrides, *, statics=false, error=None, progress=None))]
 pub fn run_scene<'py>(
     py: Python<'py>,
     file: &str,
     text: &str,
     overrides: Vec<String>,
     statics: bool,
+    error: Option<f64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Run<'py>> {
     let purpose = if statics { Purpose::Static } else { Purpose::Run };
@@ -103,7 +124,7 @@ pub fn run_scene<'py>(
                 flag.store(true, Ordering::Relaxed);
             }
         };
-        run::collect(&scene, purpose, &mut Options { stop, progress: Some(&mut report), ..Options::default() })
+        run::collect(&scene, purpose, &mut Options { stop, progress: Some(&mut report), error, ..Options::default() })
     });
     if let Some(error) = teller.failed {
         return Err(error);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+import subprocess
 import sys
 from pathlib import Path
 
@@ -108,3 +109,35 @@ def test_the_motion_is_opened_by_openusd(tmp_path: Path) -> None:
     assert points[-1] == pytest.approx(top, abs=1e-4)
     stiffness = stage.GetPrimAtPath("/World/sling").GetAttribute("lariat:axialStiffness").Get()
     assert stiffness == pytest.approx(1e9 * 1e-4)
+
+
+def test_an_error_that_is_asked_for_is_proven() -> None:
+    """The claim holds against a run with four times the elements and a hundredth of the error."""
+    asked = lariat.run({**ROPE, "duration": 0.3}, error=1e-2, progress=False)
+    claim = asked.summary["error"]
+    assert claim["outcome"] == "proven" and 0.0 < claim["claimed_m"] <= 1e-2
+    fine = lariat.run({**ROPE, "duration": 0.3}, error=1e-4, progress=False)
+    assert fine.summary["error"]["outcome"] == "proven"
+    away = np.linalg.norm(asked.probes["tip"].position - fine.probes["tip"].position, axis=1).max()
+    assert 0.0 < away <= claim["claimed_m"] + fine.summary["error"]["claimed_m"]
+
+
+def test_keys_and_rules_are_told() -> None:
+    assert "`elements`" in lariat.keys() and "kg/m^3" in lariat.keys("cable.density")
+    assert "projected-3" in lariat.rules() and "L2T2" in lariat.rules()
+    with pytest.raises(errors.NoSuchKeyError) as error:
+        lariat.keys("cable.elemnts")
+    assert "elements" in str(error.value)
+
+
+def test_the_wheel_has_the_command(tmp_path: Path) -> None:
+    """It writes the files of a run, and ends with the exit codes of the command."""
+    scene = tmp_path / "rope.toml"
+    scene.write_text(lariat._lariat.to_toml(ROPE), encoding="utf-8")  # type: ignore[arg-type]
+    command = [sys.executable, "-m", "lariat"]
+    done = subprocess.run([*command, "run", scene, "--out", tmp_path / "out"], capture_output=True, text=True)
+    assert done.returncode == 0 and (tmp_path / "out/view.html").is_file() and (tmp_path / "out/probes/tip.csv").is_file()
+    wrong = subprocess.run([*command, "run", tmp_path / "none.toml", "--out", tmp_path / "none"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and "none.toml" in wrong.stderr and not (tmp_path / "none").exists()
+    assert subprocess.run([*command, "--version"], capture_output=True, text=True).stdout.startswith("lariat ")
+    assert subprocess.run([*command, "rn"], capture_output=True, text=True).returncode == 2

@@ -9,10 +9,12 @@
 //! | [`view`] | the run as an animated page |
 //! | [`mjcf`] | cables of MuJoCo models, as a scene |
 //! | [`sweep`] | runs of a scene over a grid of values, on all threads |
+//! | [`command`] | the `lariat` command |
 //!
 //! Modules use those above them; `physics`, the Rapier side of a run, is between [`scene`] and [`run`]. The library prints
-//! nothing; the `lariat` command does.
+//! nothing; [`command`] does.
 
+pub mod command;
 pub mod document;
 mod error;
 pub mod mjcf;

@@ -31,7 +31,7 @@ from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, Gra
 from lariat.errors import Error
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
 from lariat.reel import Reel
-from lariat.scenes import Probe, Run, import_mjcf, run, statics
+from lariat.scenes import Probe, Run, import_mjcf, keys, rules, run, statics
 from lariat.sweeps import Sweep, sweep
 
 __all__ = [
@@ -74,9 +74,11 @@ __all__ = [
     "errors",
     "import_mjcf",
     "integrators",
+    "keys",
     "recommended_elements",
     "results",
     "rope_kinds",
+    "rules",
     "run",
     "statics",
     "step_all",

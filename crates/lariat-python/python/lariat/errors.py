@@ -321,6 +321,10 @@ class SyntaxError(Error, ValueError):  # noqa: A001
     """A file that is not TOML."""
 
 
+class NoSuchKeyError(Error, LookupError):
+    """A key or table that no scene has. Attributes: ``key``."""
+
+
 class OverrideError(Error, ValueError):
     """An override that is not a path into the scene."""
 

@@ -168,12 +168,12 @@ class _Bar:
             self._bar.close()
 
 
-def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool, progress: bool) -> Run:
+def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool, progress: bool, error: float | None) -> Run:
     name, text = source(scene)
     given = overrides(settings)
     total = _duration(text, settings)
     with _Bar(progress and total is not None, total or 0.0, "s") as bar:
-        summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, progress=bar)
+        summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, error=error, progress=bar)
     run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
     if failed is not None:
         failed.run = run
@@ -201,24 +201,46 @@ def run(
     scene: SceneLike,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
+    error: float | None = None,
     progress: bool = True,
 ) -> Run:
     """Runs a scene for its duration.
+
+    With ``error``, in m, elements and integrator of the scene are chosen so that no position is off by more, and several runs prove it:
+    ``summary["error"]`` has the claim, its parts and ``outcome``, which is ``"proven"`` or says why not.
 
     ``set`` overrides keys, as ``{"cable.sling.elements": 20}``. Progress is shown by tqdm if it is installed and the run takes longer than a second.
 
     Raises ``SceneError`` for a scene that is not accepted, and the error of the mechanics for a run that fails; its attribute ``run``
     then has the samples until there.
     """
-    return _collect(scene, set, False, progress)
+    return _collect(scene, set, False, progress, error)
 
 
-def statics(scene: SceneLike, *, set: Mapping[str, Any] | None = None) -> Run:  # noqa: A002
-    """Finds the static equilibrium of a scene; probes then have one sample each, at t = 0.
+def statics(
+    scene: SceneLike,
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002
+    error: float | None = None,
+) -> Run:
+    """Finds the static equilibrium of a scene; probes then have one sample each, at t = 0. ``error`` is as of ``run``.
 
     Raises ``NoEquilibriumError`` if there is none, and as ``run``.
     """
-    return _collect(scene, set, True, False)
+    return _collect(scene, set, True, False, error)
+
+
+def keys(path: str | None = None) -> str:
+    """Returns the keys of a scene, with unit, range and default, as Markdown: all, or those of a table or key, such as ``"cable.drag"``.
+
+    Raises ``errors.NoSuchKeyError`` for a key that does not exist.
+    """
+    return _lariat.scene_keys(path)
+
+
+def rules() -> str:
+    """Returns the rules of the elastic forces, and what each is for, as a table."""
+    return _lariat.scene_rules()
 
 
 def import_mjcf(model: str | PathLike[str]) -> str:

@@ -1,9 +1,9 @@
 //! `lariat sweep`: runs of a scene over a grid of values.
 
+use crate::sweep::{self, Row, Source, Store};
+use crate::{Error, Purpose, Scene};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use lariat_scene::sweep::{self, Row, Source, Store};
-use lariat_scene::{Error, Purpose, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,7 +26,7 @@ pub struct SweepArguments {
 /// Runs the sweep, and returns what to print.
 pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
     let file = arguments.scene.display().to_string();
-    let text = lariat_scene::read_text(&arguments.scene)?;
+    let text = crate::read_text(&arguments.scene)?;
     let source = Source { file: &file, text: &text };
     let points = sweep::grid(&arguments.vary)?;
     let points: Vec<Vec<String>> = points.into_iter().map(|point| [&arguments.set[..], &point].concat()).collect();

@@ -1,12 +1,15 @@
 //! `lariat keys`: the keys of a scene file, from the schema.
 
-use lariat_scene::Error;
-use lariat_scene::scene::SceneTable;
-use lariat_scene::schema::markdown;
+use crate::Error;
+use crate::scene::SceneTable;
+use crate::schema::markdown;
 use std::fs;
 use std::path::Path;
 
-/// Returns the tables of all keys, or those of one table or key, such as `cable.drag`.
+/// Returns the tables of all keys, or those of one table or key, such as `cable.drag`, in Markdown.
+///
+/// # Errors
+/// [`Error::NoSuchKey`] for a table or key that does not exist.
 pub fn print(path: Option<&str>) -> Result<String, Error> {
     match path {
         None => Ok(markdown::tables(&SceneTable::TABLE)),

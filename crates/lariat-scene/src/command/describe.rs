@@ -1,6 +1,6 @@
 //! Results as text for a terminal.
 
-use lariat_scene::run::{BodyStatics, CableStatics, Summary};
+use crate::run::{BodyStatics, CableStatics, Summary};
 use std::fmt::Write as _;
 use std::path::Path;
 

@@ -6,7 +6,7 @@
 use clap::{Args, Subcommand};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 /// The subcommands of `lariat-bench`.
 #[derive(Subcommand)]
@@ -36,7 +36,7 @@ pub struct Arguments {
 }
 
 /// Runs a subcommand with its arguments.
-pub fn run(bench: &Bench) -> ExitCode {
+pub fn run(bench: &Bench) -> u8 {
     let (name, Arguments { arguments }) = match bench {
         Bench::Coupling(arguments) => ("coupling", arguments),
         Bench::Matrix(arguments) => ("matrix", arguments),
@@ -49,13 +49,13 @@ pub fn run(bench: &Bench) -> ExitCode {
             "error: lariat {name} needs the program lariat-bench in the folder of lariat; in the workspace of Lariat, \
              `cargo build --release -p lariat-bench` builds it"
         );
-        return ExitCode::from(2);
+        return 2;
     };
     match command.arg(name).args(arguments).status() {
-        Ok(status) => ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)),
+        Ok(status) => status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1),
         Err(error) => {
             eprintln!("error: cannot start lariat-bench: {error}");
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -1,4 +1,5 @@
-//! The `lariat` command: runs scenes, finds equilibria, lists keys, rules and integrators.
+//! The `lariat` command: runs scenes, finds equilibria, lists keys, rules and integrators. The program of
+//! this package is it, and so is that of the wheel for Python.
 
 mod bench;
 mod describe;
@@ -7,19 +8,26 @@ mod progress;
 mod sweep;
 mod tables;
 
+pub use keys::print as keys;
+pub use tables::rules;
+
+use crate::run::{self, Options, State, Summary};
+use crate::{Error, Purpose, Scene, Warning};
 use clap::{Args, Parser, Subcommand};
 use lariat_ancf::study::Resolution;
-use lariat_scene::run::{self, Options, State, Summary};
-use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::cell::RefCell;
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Parser)]
-#[command(version, about = "Cables with real materials: runs scenes, finds equilibria, compares force strategies")]
+#[command(
+    name = "lariat",
+    version,
+    about = "Cables with real materials: runs scenes, finds equilibria, compares force strategies"
+)]
 #[command(
     after_help = "Exit codes: 0 done; 2 invalid input, nothing written; 3 the run failed, samples so far are kept; 130 interrupted\n\
                   report, stability, matrix and table1 are measurements of the workspace: see lariat report --help"
@@ -88,8 +96,16 @@ struct RunArguments {
     from: Option<PathBuf>,
 }
 
-fn main() -> ExitCode {
-    let cli = Cli::parse();
+/// Runs the command with its arguments, of which the first is the name of the program, and returns
+/// its exit code; it writes to the standard output and the standard error, and handles Ctrl-C.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).unwrap_or(2);
+        }
+    };
     let outcome = match cli.command {
         Command::Run(arguments) => run_scene(&arguments).map(|summary| describe::run(&summary, &arguments.scene.out)),
         Command::Static(arguments) => {
@@ -107,11 +123,11 @@ fn main() -> ExitCode {
         Ok(text) => {
             // a closed pipe is not a failure of the run
             let _ = io::stdout().write_all(text.as_bytes());
-            ExitCode::SUCCESS
+            0
         }
         Err(error) => {
             let _ = writeln!(io::stderr(), "error: {error}");
-            ExitCode::from(error.exit_code())
+            error.exit_code()
         }
     }
 }
@@ -170,8 +186,8 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
 }
 
 fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
-    let text = lariat_scene::read_text(model)?;
-    let scene = lariat_scene::mjcf::import(&model.display().to_string(), &text)?;
+    let text = crate::read_text(model)?;
+    let scene = crate::mjcf::import(&model.display().to_string(), &text)?;
     let Some(out) = out else { return Ok(scene) };
     std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
     Ok(format!("scene: {}\n", out.display()))
