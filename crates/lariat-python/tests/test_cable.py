@@ -179,6 +179,21 @@ def test_wrong_shapes_and_types_are_named() -> None:
         lariat.Cable.from_bytes(b"nonsense")
 
 
+def test_damaged_bytes_are_refused() -> None:
+    """A flipped bit anywhere, and bytes that are missing or too many, are found; the object itself reads back."""
+    saved = pendulum(elements=4).to_bytes()
+    assert lariat.Cable.from_bytes(saved).elements == 4
+    for at in range(len(saved)):
+        damaged = bytearray(saved)
+        damaged[at] ^= 1 << (at % 8)
+        with pytest.raises(errors.FormatError):
+            lariat.Cable.from_bytes(bytes(damaged))
+    half = len(saved) // 2
+    for other in (saved[:-1], saved + b"\0", saved[:half] + saved[half + 8 :]):
+        with pytest.raises(errors.FormatError):
+            lariat.Cable.from_bytes(other)
+
+
 def test_other_threads_run_while_a_cable_is_stepped() -> None:
     """A thread of Python goes on counting during one long step; without release of the interpreter it would stand still."""
     cable = pendulum(elements=40, integrator=lariat.Integrator("esdirk4", tolerance=1e-8))

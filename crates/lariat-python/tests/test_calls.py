@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import random
 import threading
+import zlib
 from collections.abc import Callable
 from typing import Any
 
@@ -102,7 +103,11 @@ def bytes_of(r: random.Random, saved: bytes) -> Any:
     broken = bytearray(saved)
     for _ in range(r.randrange(4)):
         broken[r.randrange(len(broken))] = r.randrange(256)
-    return r.choice([saved, bytes(broken), saved[: r.randrange(len(saved))], b"", "text", None])
+    # as if it had been written so: what the checksum would refuse, the reader meets
+    head, _, body = saved.partition(b"\n")
+    broken_body = bytes(broken[len(head) + 1 :])
+    signed = head.rsplit(b" ", 1)[0] + b" %08x\n" % zlib.crc32(broken_body) + broken_body
+    return r.choice([saved, bytes(broken), signed, saved[: r.randrange(len(saved))], b"", "text", None])
 
 
 def call_cable(r: random.Random, c: lariat.Cable) -> Any:

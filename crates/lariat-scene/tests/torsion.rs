@@ -75,8 +75,13 @@ fn run(replaced: &[(&str, &str)]) -> Result<(Summary, [Rows; 2]), String> {
 /// *Source.* sqrt(GJ/(L J)); conservation of energy.
 #[test]
 fn a_hook_of_a_scene_turns_on_its_rope() {
-    let (summary, [twist, _]) = run(&[]).unwrap();
+    let (summary, [twist, energy]) = run(&[]).unwrap();
     assert!(summary.failed.is_none(), "{summary:?}");
+    for (all, own) in energy.iter().zip(&twist) {
+        let [_, kinetic, axial, bending, gravity, _, _, total, torsion] = all[..] else { panic!("{all:?}") };
+        assert_eq!(torsion, own[4], "{all:?}");
+        assert!((kinetic + axial + bending + gravity + torsion - total).abs() < 1e-9, "{all:?}");
+    }
     for row in &twist {
         let [_, torque, twist, rate, energy] = row[..] else { panic!("{row:?}") };
         assert!((torque - 0.02 * twist).abs() < 1e-9 && (rate - twist).abs() < 1e-9, "{row:?}");

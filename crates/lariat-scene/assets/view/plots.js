@@ -5,6 +5,9 @@ const QUANTITIES = {
   x: ["position", "m"], vx: ["velocity", "m/s"], sx: ["slope", "1"], tension: ["tension", "N"], tension_uncertainty: ["uncertainty of the tension", "N"], curvature: ["curvature", "1/m"],
   moment: ["bending moment", "N m"], qx: ["rotation (quaternion)", "1"], wx: ["angular velocity", "rad/s"], fx: ["force on what holds the cable", "N"],
   mx: ["moment on what holds the cable", "N m"], gap: ["gap", "m"], kinetic: ["energy", "J"], dissipated: ["dissipated, interface work, total", "J"],
+  length_out: ["length out", "m"], passed: ["length that ran over it", "m"], rate: ["rate", "m/s"], force: ["force of the drive", "N"], work: ["work of the drive", "J"],
+  from_tension: ["tension before, tension after, friction", "N"], lost: ["energy lost to friction", "J"],
+  torque: ["torque", "N m"], twist: ["twist", "rad"], twist_rate: ["twist per length", "rad/m"], energy: ["energy of torsion", "J"], torsion: ["energy of torsion", "J"],
   px: ["momentum", "kg m/s"], lx: ["angular momentum about the origin", "kg m²/s"],
 };
 const INKS = ["#3b82c4", "#e07b39", "#3d9a5f", "#a05fb4"];

@@ -34,7 +34,12 @@ pub(crate) fn columns(target: Target) -> &'static [&'static str] {
         Target::Reel(_) => &["t", "length_out", "rate", "force", "tension", "work"],
         Target::Sheave(_) => &["t", "passed", "rate", "from_tension", "to_tension", "friction", "lost"],
         Target::Torsion { .. } => &["t", "torque", "twist", "twist_rate", "energy"],
-        Target::Energy(_) => &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total"],
+        Target::Energy { torsion: false, .. } => {
+            &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total"]
+        }
+        Target::Energy { torsion: true, .. } => {
+            &["t", "kinetic", "axial", "bending", "gravity", "dissipated", "interface_work", "total", "torsion"]
+        }
         Target::Momentum(_) => &["t", "px", "py", "pz", "lx", "ly", "lz"],
     }
 }
@@ -78,11 +83,12 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
             // without a clamp on both sides nothing is twisted
             row.extend(reading.map_or([0.0; 4], |at| [at.torque, at.twist, at.twist_rate, 0.5 * at.torque * at.twist]));
         }
-        Target::Energy(cable) => {
+        Target::Energy { cable, torsion } => {
             let energy = world.energy(cable);
             let work = world.interface_work(cable)?;
             row.extend([energy.kinetic, energy.axial, energy.bending, energy.gravity]);
             row.extend([world.dissipated(cable), work, energy.total()]);
+            row.extend(torsion.then_some(energy.torsion));
         }
         Target::Momentum(cable) => {
             let momentum = world.momentum(cable);

@@ -72,7 +72,12 @@ pub enum Target {
         arc_length: f64,
     },
     /// Energy of a cable, or of all.
-    Energy(Option<usize>),
+    Energy {
+        /// The cable; `None` for all, with the bodies.
+        cable: Option<usize>,
+        /// Whether one of them has torsion, whose energy then is a column.
+        torsion: bool,
+    },
     /// Momentum of a cable, or of all.
     Momentum(Option<usize>),
 }
@@ -132,7 +137,10 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
         let point = |point| arc_length(doc, &at.key("at"), point, scene.whole_length(cable));
         Target::Torsion { cable, arc_length: row.at.map_or(Ok(0.0), point)? }
     } else if let Some(name) = &row.energy {
-        Target::Energy(cable_or_all("energy", name)?)
+        let cable = cable_or_all("energy", name)?;
+        let twisted = |index: &usize| scene.cables[*index].effects.torsion.is_some();
+        let torsion = cable.map_or_else(|| (0..scene.cables.len()).any(|index| twisted(&index)), |index| twisted(&index));
+        Target::Energy { cable, torsion }
     } else {
         Target::Momentum(cable_or_all("momentum", row.momentum.as_deref().unwrap_or("all"))?)
     };

@@ -153,7 +153,7 @@ fn about(scene: &Scene, target: Target) -> String {
         Target::Torsion { cable, .. } => format!("torsion of cable {}", scene.cables[cable].name),
         Target::Reel(cable) => format!("reel of cable {}", scene.cables[cable].name),
         Target::Sheave(i) => format!("sheave {}", scene.sheaves[i].name),
-        Target::Energy(cable) => format!("energy of {}", whose(cable)),
+        Target::Energy { cable, .. } => format!("energy of {}", whose(cable)),
         Target::Momentum(cable) => format!("momentum of {}", whose(cable)),
     }
 }

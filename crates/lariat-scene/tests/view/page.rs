@@ -160,17 +160,23 @@ fn no_name_breaks_the_page_and_nothing_is_loaded() {
 }
 
 /// Plots are made by the names of columns: every name has its quantity or follows one that has.
+///
+/// *Source.* The files of probes in docs/scene.md, which the test of the command compares with files.
 #[test]
 fn the_page_knows_the_columns_of_every_probe() {
-    let script = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/view/plots.js")).unwrap();
-    let folder = page_of("payload_pendulum", &["duration=0.02"]);
-    let tip = page_of("falling_pendulum", &["duration=0.02"]);
-    for folder in [folder, tip] {
-        for probe in Data::read(folder.path()).0["probes"].as_array().unwrap() {
-            let first = probe["columns"][1].as_str().unwrap();
-            assert!(script.contains(&format!("  {first}: [")) || script.contains(&format!(" {first}: [")), "{first}");
-        }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let script = fs::read_to_string(root.join("assets/view/plots.js")).unwrap();
+    let page = fs::read_to_string(root.join("../../docs/scene.md")).unwrap();
+    let (_, table) = page.split_once("| probe of | columns |").unwrap();
+    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let mut probes = 0;
+    for row in rows {
+        let columns = row.split('`').nth(1).unwrap();
+        let first = columns.split(',').nth(1).unwrap();
+        assert!(columns.starts_with("t,") && script.contains(&format!(" {first}: [")), "{columns}");
+        probes += 1;
     }
+    assert_eq!(probes, 8);
 }
 
 #[cfg(target_os = "linux")]
