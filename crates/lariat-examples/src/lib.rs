@@ -13,6 +13,7 @@ macro_rules! page {
 #[cfg(doctest)]
 mod pages {
     page!(Readme, "../../../README.md");
+    page!(Modes, "../../../docs/modes.md");
     page!(Theory, "../../../docs/theory.md");
     page!(Ancf, "../../lariat-ancf/README.md");
     page!(Rapier, "../../lariat-rapier/README.md");
