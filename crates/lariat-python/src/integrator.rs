@@ -4,7 +4,7 @@ use crate::error::{Raise, raise};
 use lariat_ancf::{self as ancf, ErrorNorm, Fidelity, Method, RopeKind, StepControl};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyDict, PyString};
 
 /// A time integration method and how its steps are chosen.
 #[pyclass(frozen, module = "lariat")]
@@ -60,6 +60,25 @@ impl Integrator {
     #[getter]
     fn method(&self) -> String {
         self.0.method.to_string()
+    }
+
+    /// Arguments that make the same integrator again, for pickle and copy.
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((String,), Bound<'py, PyDict>)> {
+        let named = PyDict::new(py);
+        match self.0.control {
+            StepControl::Tolerance(x) => named.set_item("tolerance", x)?,
+            StepControl::ToleranceOf(x, norm) => {
+                named.set_item("tolerance", x)?;
+                named.set_item("norm", norm.name())?;
+            }
+            StepControl::Substeps(n) => named.set_item("substeps", n)?,
+            StepControl::MaxStep(h) => named.set_item("max_step", h)?,
+            StepControl::Stable(share) => named.set_item("stable", share)?,
+        }
+        if let Method::DiscreteGradientWith { dissipation } = self.0.method {
+            named.set_item("dissipation", dissipation)?;
+        }
+        Ok(((self.0.method.to_string(),), named))
     }
 
     fn __repr__(&self) -> String {

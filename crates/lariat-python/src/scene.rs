@@ -12,7 +12,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Shortest wall time between two calls into Python.
@@ -184,29 +184,41 @@ pub fn sweep_local(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<String>> {
-    let teller = Mutex::new((Teller::new(progress), 0usize));
+    let (stop, done) = (Arc::new(AtomicBool::new(false)), AtomicUsize::new(0));
+    let mut teller = Teller::new(progress);
     let rows = py.detach(|| {
         let source = Source { file, text };
+        source.check(&points)?;
         let store = out.as_deref().map(|out: &Path| Store::open(out, &source)).transpose()?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let each = |_: &Row, _: bool| {
-            let mut teller = teller.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            teller.1 += 1;
-            let done = teller.1;
-            if done == points.len() {
-                teller.0.last = None;
+        let each = |_: &Row, _: bool| _ = done.fetch_add(1, Ordering::Relaxed);
+        let run = || sweep::sweep(&source, &points, store.as_ref(), &stop, &each);
+        std::thread::scope(|scope| {
+            let runs = scope.spawn(|| match pool {
+                Ok(pool) => pool.install(run),
+                Err(_) => run(),
+            });
+            // Python looks for signals in the thread that called alone
+            while !runs.is_finished() {
+                std::thread::sleep(TELL_EVERY / 10);
+                if !teller.tell(done.load(Ordering::Relaxed) as f64) {
+                    stop.store(true, Ordering::Relaxed);
+                }
             }
-            teller.0.tell(done as f64)
-        };
-        let run = || sweep::sweep(&source, &points, store.as_ref(), &each);
-        match pool {
-            Ok(pool) => pool.install(run),
-            Err(_) => run(),
-        }
+            let rows = runs.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            teller.last = None;
+            teller.tell(done.load(Ordering::Relaxed) as f64);
+            rows
+        })
     });
-    let rows = rows.map_err(raise::<Error>);
-    if let Some(error) = teller.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner()).0.failed {
+    if let Some(error) = teller.failed {
         return Err(error);
     }
-    Ok(rows?.iter().map(line).collect())
+    Ok(rows.map_err(raise::<Error>)?.iter().map(line).collect())
+}
+
+/// Raises the error of settings if a scene refuses all of them, as those of a key that does not exist.
+#[pyfunction]
+pub fn sweep_check(py: Python<'_>, file: &str, text: &str, points: Vec<Vec<String>>) -> PyResult<()> {
+    py.detach(|| Source { file, text }.check(&points)).map_err(raise)
 }

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import builtins
+import copy
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -141,3 +143,22 @@ def test_the_wheel_has_the_command(tmp_path: Path) -> None:
     assert wrong.returncode == 2 and "none.toml" in wrong.stderr and not (tmp_path / "none").exists()
     assert subprocess.run([*command, "--version"], capture_output=True, text=True).stdout.startswith("lariat ")
     assert subprocess.run([*command, "rn"], capture_output=True, text=True).returncode == 2
+
+
+def test_a_run_pickles_with_its_page() -> None:
+    run = lariat.run(ROPE, progress=False)
+    again = pickle.loads(pickle.dumps(run))
+    assert (again.probes["tip"].rows == run.probes["tip"].rows).all() and again.summary == run.summary
+    assert again.page() == run.page() and again.usd() == run.usd()
+
+
+def test_integrators_pickle() -> None:
+    for integrator in (
+        lariat.Integrator("tr-bdf2", tolerance=1e-5, norm="motion"),
+        lariat.Integrator("discrete-gradient", max_step=1 / 240, dissipation=0.01),
+        lariat.Integrator("discrete-gradient", tolerance=1e-4),
+        lariat.Integrator("trapezoid", substeps=4),
+        lariat.Integrator("verlet", stable=0.5),
+    ):
+        again = pickle.loads(pickle.dumps(integrator))
+        assert again == integrator == copy.copy(integrator) and repr(again) == repr(integrator)

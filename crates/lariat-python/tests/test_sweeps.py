@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +30,27 @@ def test_each_combination_is_a_row_and_failures_lose_none() -> None:
             for column in probe.columns[1:]:
                 assert row["results"][f"{name}.{column}.last"] == probe[column][-1]
                 assert row["results"][f"{name}.{column}.max"] == probe[column].max()
+
+
+def test_what_all_runs_refuse_is_raised() -> None:
+    with pytest.raises(lariat.Error) as error:
+        lariat.sweep(SCENE, {"cable.0.elemnts": [2, 3]}, progress=False)
+    assert "elements" in str(error.value)
+
+
+def test_ctrl_c_ends_a_sweep_in_the_middle_of_its_runs() -> None:
+    """Runs of an hour of the pendulum take minutes; signals reach the main thread alone, which waits for the threads of Rust."""
+    code = (
+        "import lariat, sys\n"
+        "print('begins', flush=True)\n"
+        f"lariat.sweep({str(SCENE)!r}, {{'duration': [3600.0, 3601.0, 3602.0]}}, progress=False)\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None and process.stdout.readline() == "begins\n"
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=60)
+    assert process.returncode != 0 and "KeyboardInterrupt" in told
 
 
 def test_tables_have_a_row_for_each_run() -> None:

@@ -15,7 +15,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// The file of the rows.
 const ROWS: &str = "rows.jsonl";
@@ -93,6 +94,11 @@ impl Source<'_> {
 
     /// Runs the scene with overrides.
     pub fn row(&self, settings: &[String]) -> Row {
+        self.row_until(settings, &Arc::default()).0
+    }
+
+    /// Runs the scene with overrides until it ends, or is stopped; returns whether it ended.
+    fn row_until(&self, settings: &[String], stop: &Arc<AtomicBool>) -> (Row, bool) {
         let mut row = Row {
             of: self.checksum(),
             settings: settings.to_vec(),
@@ -100,17 +106,32 @@ impl Source<'_> {
             warnings: Vec::new(),
             error: None,
         };
-        let recording = Scene::parse(self.file, self.text, settings, Purpose::Run)
-            .and_then(|scene| run::collect(&scene, Purpose::Run, &mut Options::default()));
+        let recording = Scene::parse(self.file, self.text, settings, Purpose::Run).and_then(|scene| {
+            run::collect(&scene, Purpose::Run, &mut Options { stop: stop.clone(), ..Options::default() })
+        });
+        let mut ended = true;
         match recording {
             Err(error) => row.error = Some(error.to_string()),
             Ok(recording) => {
                 row.results = results(&recording.summary, &recording.probes);
                 row.warnings = recording.summary.warnings.iter().map(ToString::to_string).collect();
+                ended = !matches!(recording.failed, Some(Error::Interrupted { .. }));
                 row.error = recording.failed.map(|error| error.to_string());
             }
         }
-        row
+        (row, ended)
+    }
+
+    /// Checks that the scene accepts some of these settings.
+    ///
+    /// # Errors
+    /// That of the first of them if all are refused, as those of a key that does not exist.
+    pub fn check(&self, points: &[Vec<String>]) -> Result<(), Error> {
+        let refused = |point: &Vec<String>| Scene::parse(self.file, self.text, point, Purpose::Run).err();
+        match points.iter().map(refused).try_fold(None, |first, error| error.map(|error| first.or(Some(error)))) {
+            Some(Some(error)) => Err(error),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -181,40 +202,43 @@ impl Store {
 }
 
 /// Runs a scene with each of these settings on the threads of rayon's present pool, and returns the rows in their order. `each` is called
-/// when a row is there, with whether it was done before; false from it stops the sweep, and the rows that are missing are left out.
+/// when a row is there, with whether it was done before. Once `stop` is true, runs end after their present host step, and the rows that are
+/// missing are left out.
 ///
 /// # Errors
-/// [`Error::Output`] if a row cannot be written; those before are kept.
+/// [`Error::Output`] if a row cannot be written; further runs are not begun then.
 pub fn sweep(
     source: &Source<'_>,
     points: &[Vec<String>],
     store: Option<&Store>,
-    each: &(dyn Fn(&Row, bool) -> bool + Sync),
+    stop: &Arc<AtomicBool>,
+    each: &(dyn Fn(&Row, bool) + Sync),
 ) -> Result<Vec<Row>, Error> {
     let run = |settings: &Vec<String>| {
         let before = store.and_then(|store| store.done(settings)).cloned();
         let known = before.is_some();
-        let row = before.unwrap_or_else(|| source.row(settings));
+        let (row, ended) = before.map_or_else(|| source.row_until(settings, stop), |row| (row, true));
+        if !ended {
+            return Ok(None);
+        }
         if let (Some(store), false) = (store, known) {
             store.append(&row)?;
         }
-        Ok((each(&row, known), row))
+        each(&row, known);
+        Ok(Some(row))
+    };
+    let failed = AtomicBool::new(false);
+    let guarded = |settings| {
+        if stop.load(Ordering::Relaxed) || failed.load(Ordering::Relaxed) {
+            return None;
+        }
+        let outcome = run(settings);
+        failed.fetch_or(outcome.is_err(), Ordering::Relaxed);
+        outcome.transpose()
     };
     // one by one, so that a thread is never left with a run of several
-    let rows: Vec<Option<Result<(bool, Row), Error>>> = {
-        let stopped = std::sync::atomic::AtomicBool::new(false);
-        let relaxed = std::sync::atomic::Ordering::Relaxed;
-        let guarded = |settings| {
-            if stopped.load(relaxed) {
-                return None;
-            }
-            let outcome = run(settings);
-            stopped.fetch_or(!matches!(outcome, Ok((true, _))), relaxed);
-            Some(outcome)
-        };
-        points.par_iter().with_max_len(1).map(guarded).collect()
-    };
-    rows.into_iter().flatten().map(|row| row.map(|(_, row)| row)).collect()
+    let rows: Vec<Option<Result<Row, Error>>> = points.par_iter().with_max_len(1).map(guarded).collect();
+    rows.into_iter().flatten().collect()
 }
 
 /// Writes rows as one table, `table.csv`: settings, results, number of warnings, error.

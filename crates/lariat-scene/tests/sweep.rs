@@ -5,6 +5,8 @@ use lariat_scene::sweep::{self, Row, Source, Store, TIMES};
 use lariat_scene::{Purpose, Scene};
 use std::fs;
 use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 const TEXT: &str = r#"
 duration = 0.1
@@ -32,7 +34,7 @@ fn grid() -> Vec<Vec<String>> {
 }
 
 fn swept(points: &[Vec<String>], store: Option<&Store>) -> Vec<Row> {
-    sweep::sweep(&SOURCE, points, store, &|_, _| true).unwrap()
+    sweep::sweep(&SOURCE, points, store, &Arc::default(), &|_, _| ()).unwrap()
 }
 
 /// Without the times, which differ from run to run.
@@ -90,17 +92,38 @@ fn a_restart_runs_only_what_is_missing() {
     fs::write(&path, fs::read_to_string(&path).unwrap() + "{\"of\": \"").unwrap();
     let store = Store::open(folder.path(), &SOURCE).unwrap();
     let known = std::sync::Mutex::new(0);
-    let count = |_: &Row, before: bool| {
-        *known.lock().unwrap() += usize::from(before);
-        true
-    };
-    let rows = sweep::sweep(&SOURCE, &points, Some(&store), &count).unwrap();
+    let count = |_: &Row, before: bool| *known.lock().unwrap() += usize::from(before);
+    let rows = sweep::sweep(&SOURCE, &points, Some(&store), &Arc::default(), &count).unwrap();
     assert_eq!(*known.lock().unwrap(), 2);
     // with the times of the first run: it was not run again
     assert_eq!(rows[..2], first);
     assert_eq!(results(&rows), results(&swept(&points, None)));
     let other = Source { text: &TEXT.replace("elements = 4", "elements = 5"), ..SOURCE };
     assert!(Store::open(folder.path(), &other).unwrap().done(&points[0]).is_none());
+}
+
+/// A sweep that is stopped while runs are under way ends them, and keeps the rows that are done: with
+/// the same store the rest is run later. Runs of an hour would not end within the time of a test.
+#[test]
+fn a_sweep_that_is_stopped_ends_its_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let points = sweep::grid(&["duration=0.05,36000,36001,36002".to_string()]).unwrap();
+    let store = Store::open(folder.path(), &SOURCE).unwrap();
+    let stop = Arc::new(AtomicBool::new(false));
+    let first_row = |_: &Row, _: bool| stop.store(true, Ordering::Relaxed);
+    let rows = sweep::sweep(&SOURCE, &points, Some(&store), &stop, &first_row).unwrap();
+    assert_eq!(rows.len(), 1);
+    assert_eq!(rows[0].settings, points[0]);
+    let again = Store::open(folder.path(), &SOURCE).unwrap();
+    assert!(again.done(&points[0]).is_some() && points[1..].iter().all(|point| again.done(point).is_none()));
+}
+
+/// What every run would refuse is told before any; what some accept is run.
+#[test]
+fn a_key_that_no_run_accepts_is_an_error() {
+    let misspelt = sweep::grid(&["cable.rope.elemnts=2,3".to_string()]).unwrap();
+    assert!(SOURCE.check(&misspelt).unwrap_err().to_string().contains("elements"));
+    assert!(SOURCE.check(&grid()).is_ok() && SOURCE.check(&[]).is_ok());
 }
 
 #[test]

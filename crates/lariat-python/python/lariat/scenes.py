@@ -95,15 +95,31 @@ class Probe:
         return f"<Probe: {len(self)} samples of {', '.join(self.columns)}>"
 
 
+class _Written:
+    """The page and the motion of a run that was pickled."""
+
+    def __init__(self, page: str, usd: str) -> None:
+        self._page, self._usd = page, usd
+
+    def page(self) -> str:
+        return self._page
+
+    def usd(self) -> str:
+        return self._usd
+
+
 class Run:
     """A run of a scene: ``probes`` by name, ``summary``, ``t``; in a notebook, the animated view."""
 
-    def __init__(self, summary: dict[str, Any], probes: dict[str, Probe], recorded: _lariat.Recorded) -> None:
+    def __init__(self, summary: dict[str, Any], probes: dict[str, Probe], recorded: _lariat.Recorded | _Written) -> None:
         self.summary = summary
         """The results and costs, with the keys of summary.json."""
         self.probes = probes
         """Samples by the name of the probe."""
         self._recorded = recorded
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_recorded": _Written(self.page(), self.usd())}
 
     @property
     def t(self) -> Array:

@@ -100,13 +100,17 @@ def sweep(
 
     A run that fails is a row with its error; no other is lost. With ``out`` every row is written to that folder when its run ends, what is
     done there is not run again, and ``table.csv`` is written in the end. Runs are made by ``threads`` threads (0: all cores), or by the
-    workers of ``client``, a ``dask.distributed.Client``; results are bitwise the same.
+    workers of ``client``, a ``dask.distributed.Client``; results are bitwise the same. Ctrl-C ends all runs after their present host step;
+    rows that are written stay.
+
+    Raises ``SceneError``, ``OverrideError`` or ``NoSuchKeyError`` for what all runs refuse, as a key that does not exist.
     """
     name, text = source(scene)
     keys = list(vary)
     settings = [dict(zip(keys, values)) for values in itertools.product(*(list(vary[key]) for key in keys))]
     points = [[setting(key, value) for key, value in point.items()] for point in settings]
     folder = None if out is None else str(out)
+    _lariat.sweep_check(name, text, points)
     with _Bar(progress, len(points), "run") as bar:
         if client is None:
             lines = _lariat.sweep_local(name, text, points, folder, threads=threads, progress=bar)

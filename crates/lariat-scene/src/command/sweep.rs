@@ -1,7 +1,7 @@
 //! `lariat sweep`: runs of a scene over a grid of values.
 
+use crate::Error;
 use crate::sweep::{self, Row, Source, Store};
-use crate::{Error, Purpose, Scene};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
@@ -30,10 +30,7 @@ pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
     let source = Source { file: &file, text: &text };
     let points = sweep::grid(&arguments.vary)?;
     let points: Vec<Vec<String>> = points.into_iter().map(|point| [&arguments.set[..], &point].concat()).collect();
-    // a key that does not exist is an error of all runs
-    if let Some(first) = points.first() {
-        Scene::parse(&file, &text, first, Purpose::Run)?;
-    }
+    source.check(&points)?;
     let store = Store::open(&arguments.out, &source)?;
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
@@ -52,9 +49,8 @@ pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
             bar.println(format!("failed: {}: {error}", row.settings.join(" ")));
         }
         bar.inc(1);
-        !stop.load(Ordering::Relaxed)
     };
-    let rows = sweep::sweep(&source, &points, Some(&store), &each)?;
+    let rows = sweep::sweep(&source, &points, Some(&store), &stop, &each)?;
     bar.finish_and_clear();
     let table = sweep::write_table(&arguments.out, &rows)?;
     let failed = rows.iter().filter(|row| row.error.is_some()).count();

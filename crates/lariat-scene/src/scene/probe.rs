@@ -139,7 +139,8 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
     } else if let Some(name) = &row.energy {
         let cable = cable_or_all("energy", name)?;
         let twisted = |index: &usize| scene.cables[*index].effects.torsion.is_some();
-        let torsion = cable.map_or_else(|| (0..scene.cables.len()).any(|index| twisted(&index)), |index| twisted(&index));
+        let torsion =
+            cable.map_or_else(|| (0..scene.cables.len()).any(|index| twisted(&index)), |index| twisted(&index));
         Target::Energy { cable, torsion }
     } else {
         Target::Momentum(cable_or_all("momentum", row.momentum.as_deref().unwrap_or("all"))?)
