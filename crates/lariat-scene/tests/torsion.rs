@@ -79,7 +79,7 @@ fn a_hook_of_a_scene_turns_on_its_rope() {
     assert!(summary.failed.is_none(), "{summary:?}");
     for (all, own) in energy.iter().zip(&twist) {
         let [_, kinetic, axial, bending, gravity, _, _, total, torsion] = all[..] else { panic!("{all:?}") };
-        assert_eq!(torsion, own[4], "{all:?}");
+        assert!((torsion - own[4]).abs() < 1e-9 && torsion >= 0.0, "{all:?} {own:?}");
         assert!((kinetic + axial + bending + gravity + torsion - total).abs() < 1e-9, "{all:?}");
     }
     for row in &twist {
