@@ -8,9 +8,10 @@ mod sweep;
 mod tables;
 
 use clap::{Args, Parser, Subcommand};
+use lariat_ancf::Level;
 use lariat_ancf::study::Resolution;
 use lariat_scene::run::{self, Options, State, Summary};
-use lariat_scene::{Error, Purpose, Scene, Warning};
+use lariat_scene::{Error, Purpose, Scene};
 use std::cell::RefCell;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -74,6 +75,10 @@ struct SceneArguments {
     /// Choose elements and integrator so that no position is off by more than this, in m, and prove it by runs with several meshes
     #[arg(long, value_name = "METRES")]
     error: Option<f64>,
+    /// Tell warnings up to this level: setup (not what is meant), wrong (a result that is off) or coarse (mesh and steps). Default:
+    /// coarse, of cables with fidelity game wrong
+    #[arg(long, value_name = "LEVEL")]
+    warn: Option<Level>,
     /// Write DIR/run.usda, the motion as OpenUSD, too
     #[arg(long)]
     usd: bool,
@@ -145,6 +150,7 @@ fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<S
         stop,
         progress: Some(&mut report),
         warn: Some(&mut warn),
+        warn_level: arguments.warn,
         error: arguments.error,
         pilot: Some(&mut pilot),
         usd: arguments.usd,
@@ -161,6 +167,7 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let mut pilot = |resolution: &Resolution| bar.begin_run(resolution);
     let mut options = Options {
         warn: Some(&mut warn),
+        warn_level: arguments.warn,
         error: arguments.error,
         pilot: Some(&mut pilot),
         usd: arguments.usd,
@@ -177,6 +184,6 @@ fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
     Ok(format!("scene: {}\n", out.display()))
 }
 
-fn warn(warning: &Warning) {
+fn warn(warning: &str) {
     let _ = writeln!(io::stderr(), "warning: {warning}");
 }
