@@ -4,7 +4,7 @@ use crate::summary_of;
 use lariat_ancf::Level;
 use lariat_scene::{Purpose, Warning};
 
-/// A bar that a kinematic body holds at one end and turns from the first instant on, faster than its free end can follow on one element, by a method that damps.
+/// Ropes that a kinematic body holds at one end and moves along them from the first instant on, by a method that damps.
 fn thrown(names: &[&str], velocity: f64) -> String {
     let one = |(i, name): (usize, &&str)| {
         let z = i as f64;
@@ -34,13 +34,14 @@ fn a_shock_is_told_in_place_of_what_follows_from_it() {
     };
     assert!((force_n - 100.0 * difference_m_s).abs() < 1e-3 * force_n && cable == "rope", "{force_n}");
     assert_eq!(summary.told, [summary.warnings[0].to_string()]);
-    // too slow for a shock: 0.05 N
-    let slow = summary_of(&thrown(&["rope"], -5e-4), Purpose::Run, Some(Level::Coarse));
+    // too slow for a shock, 0.05 N, and one element, which cannot bend as a falling rope does
+    let text = thrown(&["rope"], -5e-4).replace("elements = 8", "elements = 1");
+    let slow = summary_of(&text, Purpose::Run, Some(Level::Coarse));
     assert!(!slow.warnings.iter().any(|w| matches!(w, Warning::VelocityJump { .. })), "{:?}", slow.warnings);
     let coarse = slow.warnings.iter().filter(follows).count();
-    assert!(coarse > 0 && slow.told.len() >= 1, "{:?} {:?}", slow.warnings, slow.told);
+    assert!(coarse > 0 && !slow.told.is_empty(), "{:?} {:?}", slow.warnings, slow.told);
     // what is coarse is kept, but told only up to its level
-    let quiet = summary_of(&thrown(&["rope"], -5e-4), Purpose::Run, Some(Level::Wrong));
+    let quiet = summary_of(&text, Purpose::Run, Some(Level::Wrong));
     assert_eq!((quiet.warnings, quiet.told), (slow.warnings, vec![]));
 }
 
