@@ -105,7 +105,9 @@ impl World {
         set.settings.sleep_speed = sleep_speed;
         set.settings.fidelity = self::fidelity(fidelity)?;
         set.settings.budget = ropes::budget(max_iterations, max_time)?;
-        let level = |name: &str| name.parse().map_err(|problem| raise(Raise::new("UnknownKindError", problem)));
+        let level = |name: &str| {
+            name.parse::<lariat_ancf::Level>().map_err(|problem| raise(Raise::new("UnknownKindError", problem)))
+        };
         set.settings.warn_level = warn_level.map(level).transpose()?;
         let (bodies, attachments, sheaves, junctions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions })))
