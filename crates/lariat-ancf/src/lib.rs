@@ -111,4 +111,4 @@ pub use strength::{Break, BreakCause, Load, Strength};
 pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;
 pub use term::ReasonCounts;
-pub use warning::{Warning, Watch};
+pub use warning::{Level, Warning, Watch};

@@ -4,7 +4,8 @@ mod common;
 
 use common::Random;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{At, Cable, CableBuilder, Integrator, Method, Section, StepControl, Vector3, Warning};
+use lariat_ancf::warning::fold;
+use lariat_ancf::{At, Cable, CableBuilder, Integrator, Level, Method, Section, StepControl, Vector3, Warning};
 use std::f64::consts::PI;
 
 const GRAVITY: f64 = 9.81;
@@ -222,4 +223,90 @@ fn energy_that_integration_loses_is_told() {
         good.step(0.1 / omega).unwrap();
     }
     assert_eq!(energy(&good), None);
+}
+
+/// One warning of each kind about a cable.
+fn of_each_kind() -> Vec<Warning> {
+    let cable = || "rope".to_string();
+    let (elements, enough, steps, time_s, step_s) = (8, 16, 3, 1.0, 0.01);
+    vec![
+        Warning::CoarseMesh { cable: cable(), error_m: 0.1, elements, enough },
+        Warning::UntouchedObstacles { cable: cable(), count: 1 },
+        Warning::CoarseMotion { cable: cable(), error_m: 0.1, displacement_m: 0.1, elements, enough },
+        Warning::CoarseElement { cable: cable(), turn_rad: 1.0, elements, enough },
+        Warning::LongSteps { cable: cable(), time_s, error_m: 0.1, step_s, enough_s: 0.001 },
+        Warning::LargeStrain { cable: cable(), time_s, tension_n: 1.0, axial_stiffness_n: 2.0 },
+        Warning::EnergyMade { cable: cable(), time_s, made_j: 1.0, scale_j: 2.0, discrete_gradient: false },
+        Warning::EnergyLost { cable: cable(), time_s, lost_j: 1.0, scale_j: 2.0 },
+        Warning::FastReel { cable: cable(), time_s, ratio: 0.5 },
+        Warning::UnseenLoad { cable: cable(), time_s, share: 0.9, reached: 1.1, step_s },
+        Warning::RoundedEnds { cable: cable(), time_s, noise_n: 1.0, tension_n: 2.0 },
+        Warning::PassedThrough { cable: cable(), steps },
+        Warning::NotResolved { cable: cable(), steps },
+        Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },
+        Warning::CoarseContact { cable: cable(), arc_length_m: 0.5, turn_rad: 1.0, enough },
+        Warning::HighRestitution { cable: cable(), restitution: 1.0 },
+        Warning::FrictionLags { cable: cable(), steps },
+        Warning::IdleTorsion { cable: cable() },
+        Warning::CoarseTwist { cable: cable(), ratio: 2.0, elements, enough },
+        Warning::TwistSlips { cable: cable(), slips: 2 },
+        Warning::Stubby { cable: cable(), ratio: 2.0, length_m: 1.0, diameter_m: 0.5 },
+        Warning::Thick { cable: cable(), diameter_m: 2.0 },
+        Warning::LightMaterial { cable: cable(), density_kg_m3: 1.0, wave_speed_m_s: 1e5 },
+        Warning::FastWaves { cable: cable(), axial_stiffness_n: 1e9, mass_per_length_kg_m: 0.1, wave_speed_m_s: 1e5 },
+        Warning::SoftMaterial { cable: cable(), youngs_modulus_pa: 210.0 },
+    ]
+}
+
+/// Whatever is warned of, something is told, and nothing that is told explains a warning of an earlier level: causes come first, and no two explain each other.
+#[test]
+fn no_list_of_warnings_is_silenced() {
+    let all = of_each_kind();
+    let cable = |warning: &Warning| Some(warning.cable().to_string());
+    for a in &all {
+        for b in &all {
+            for c in &all {
+                let mut list = vec![a.clone(), b.clone(), c.clone()];
+                fold::sort(&mut list);
+                assert!(list.is_sorted_by_key(Warning::level));
+                let explained = fold::explained(&list, cable, |_| true);
+                for (warning, cause) in list.iter().zip(&explained) {
+                    assert!(cause.is_none_or(|cause| list[cause].level() <= warning.level()), "{list:?}");
+                }
+                // in the end of every chain there is one that nothing explains
+                for mut index in 0..list.len() {
+                    for _ in 0..list.len() {
+                        index = explained[index].unwrap_or(index);
+                    }
+                    assert_eq!(explained[index], None, "{list:?}");
+                }
+                assert!(!fold::lines(&list, cable, |_| true).is_empty());
+                // what is not told explains nothing
+                let wrong = |warning: &Warning| warning.level() == Level::Wrong;
+                assert_eq!(fold::lines(&list, cable, wrong).is_empty(), !list.iter().any(wrong), "{list:?}");
+            }
+        }
+    }
+}
+
+/// A cause explains its symptoms at its own cable, and from its time on.
+#[test]
+fn a_cause_explains_what_follows_at_its_cable() {
+    let steps = |cable: &str, time_s| Warning::LongSteps {
+        cable: cable.into(),
+        time_s,
+        error_m: 0.1,
+        step_s: 0.1,
+        enough_s: 0.01,
+    };
+    let lost = |cable: &str, time_s| Warning::EnergyLost { cable: cable.into(), time_s, lost_j: 1.0, scale_j: 2.0 };
+    let cable = |warning: &Warning| Some(warning.cable().to_string());
+    for (other, time, expected) in [("a", 2.0, Some(0)), ("b", 2.0, None), ("a", 0.5, None)] {
+        let explained = fold::explained(&[steps("a", 1.0), lost(other, time)], cable, |_| true);
+        assert_eq!(explained, [None, expected], "{other} {time}");
+    }
+    // three cables, one kind: one line, of the worst
+    let worst = Warning::LongSteps { cable: "c".into(), time_s: 1.0, error_m: 0.3, step_s: 0.1, enough_s: 0.01 };
+    let lines = fold::lines(&[steps("a", 1.0), worst.clone(), steps("b", 1.0)], cable, |_| true);
+    assert_eq!(lines, [format!("3 times, the worst: {worst}")]);
 }

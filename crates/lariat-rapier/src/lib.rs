@@ -91,7 +91,8 @@
 //!   [`Settings::max_rapier_steps`] Rapier steps. Random booms with loads on ropes, at 30 to 240
 //!   Hz, are then within 5 % of their ways with fidelity engineering (tests, seeds). What fidelity
 //!   game takes of the energy there is told ([`lariat_ancf::Warning::EnergyLost`], by
-//!   [`CableSet::warnings`] alone: only a whole run can judge it).
+//!   [`CableSet::warnings`] alone, for only a whole run can judge it, and of cables with fidelity
+//!   game with [`Settings::warn_level`] coarse).
 //! - A kick that a taut cable answers within a step loses energy in fidelity game: up to half of
 //!   it, of two balls on a cable whose vibration has several periods in a step of 1/60 s. Momentum
 //!   and angular momentum stay.

@@ -114,7 +114,7 @@ impl Source<'_> {
             Err(error) => row.error = Some(error.to_string()),
             Ok(recording) => {
                 row.results = results(&recording.summary, &recording.probes);
-                row.warnings = recording.summary.warnings.iter().map(ToString::to_string).collect();
+                row.warnings = recording.summary.told;
                 ended = !matches!(recording.failed, Some(Error::Interrupted { .. }));
                 row.error = recording.failed.map(|error| error.to_string());
             }

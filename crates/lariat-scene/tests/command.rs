@@ -64,6 +64,7 @@ fn a_run_writes_its_probes_and_a_summary_with_every_key() {
         "energy_start_j",
         "energy_end_j",
         "energy_balance",
+        "told",
         "warnings",
         "failed",
     ];

@@ -43,7 +43,7 @@ impl Cable {
         let node = self.insert_node(At::ArcLength(s))?;
         let s = self.node_arc_lengths()[node];
         let (mut head, mut tail) = (self.model.clone(), self.model.clone());
-        tail.name = format!("{}, cut off", self.model.name);
+        tail.name = format!("{}, cut off", self.model.name.trim_end_matches(", cut off"));
         tail.elements = head.elements.split_off(node);
         head.supports.retain(|(n, _)| *n <= node);
         tail.supports.retain(|(n, _)| *n > node);

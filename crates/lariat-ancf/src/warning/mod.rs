@@ -3,7 +3,9 @@
 //!
 //! A warning changes no result. It says where, how much, and what to do.
 //! [`Cable::warnings`](crate::Cable::warnings) judges the present state, a [`Watch`] all host steps
-//! that it notes; [`Cable::set_watched`](crate::Cable::set_watched) lets a cable note its own.
+//! that it notes; [`Cable::set_watched`](crate::Cable::set_watched) lets a cable note its own. Each
+//! has a [`Level`], by which lists of warnings are sorted; [`fold::lines`] leaves out what follows
+//! from another one.
 //!
 //! | file | what it judges |
 //! |---|---|
@@ -12,14 +14,23 @@
 //! | `watch` | mesh, tension and reel, by the shapes of a run |
 //! | `steps` | the length of integration steps, by the velocities of a run |
 //! | `balance` | the energy that integration makes or loses |
+//! | `shock` | a velocity that jumps |
+//! | `level`, `facts` | how much depends on a warning, and on each |
+//! | `fold` | which of them follow from which, and what to tell of many |
 
 pub mod balance;
 mod contact;
+mod facts;
+pub mod fold;
+mod level;
+mod shock;
 pub mod sizes;
 mod steps;
 mod watch;
 
 pub use crate::watch::{EnergyBalance, IslandChange, Watch};
+pub use level::Level;
+pub use shock::Shock;
 
 use serde::{Deserialize, Serialize};
 
@@ -119,8 +130,8 @@ pub enum Warning {
     },
     /// Integration makes energy.
     #[error(
-        "cable {cable:?}: integration of it, and of what moves with it, makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): take a \
-         smaller tolerance, shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none", percent = 100.0 * .made_j / .scale_j
+        "cable {cable:?}: integration of it, and of what moves with it, makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): {}",
+        less_energy(*.discrete_gradient), percent = 100.0 * .made_j / .scale_j
     )]
     EnergyMade {
         /// Name of the cable.
@@ -131,6 +142,9 @@ pub enum Warning {
         made_j: f64,
         /// Largest energy or work so far in J.
         scale_j: f64,
+        /// Whether the method is the discrete gradient.
+        #[serde(default)]
+        discrete_gradient: bool,
     },
     /// Integration takes energy.
     #[error(
@@ -362,4 +376,14 @@ pub enum Warning {
         /// Young's modulus in Pa.
         youngs_modulus_pa: f64,
     },
+}
+
+/// Returns what to do about energy that integration makes, with the discrete gradient or without.
+pub fn less_energy(discrete_gradient: bool) -> &'static str {
+    match discrete_gradient {
+        true => "take a smaller tolerance or shorter steps",
+        false => {
+            "take a smaller tolerance, shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none"
+        }
+    }
 }

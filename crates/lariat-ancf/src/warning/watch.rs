@@ -8,9 +8,10 @@
 //! [`Cable::mesh_indicator`](crate::coupling::Linearisation::mesh_indicator) says, steps as `steps`
 //! says; the strain by the law of the material, which is 7.5 % above Hooke's at 5 %.
 
-use super::{Warning, sizes};
+use super::{Level, Warning, fold, sizes};
 use crate::cable::Cable;
-use crate::scales::watch::{ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN, TWIST};
+use crate::integrate::{Fidelity, OneStep};
+use crate::scales::watch::{DEPTH, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN, TWIST};
 use crate::strength::Unseen;
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
@@ -91,7 +92,9 @@ impl Watch {
     /// is the limit of the mesh, and only of its indicator: a [study](crate::study) judges what
     /// nodes cannot, and chooses the steps.
     pub fn warnings(&self, cable: &Cable, error: Option<f64>) -> Vec<Warning> {
-        LAWS.iter().filter_map(|(law, _)| law(self, cable, error)).collect()
+        let mut warnings: Vec<Warning> = LAWS.iter().filter_map(|(law, _)| law(self, cable, error)).collect();
+        fold::sort(&mut warnings);
+        warnings
     }
 
     /// Calls `tell` with each warning that is due and was not told yet, about sizes first; those
@@ -142,7 +145,11 @@ impl Watch {
     fn small_motion(&self, cable: &Cable, error: Option<f64>) -> Option<Warning> {
         let (elements, limit) = (cable.elements().len(), MOTION * self.displacement);
         let judged = error.is_none() && self.position <= ERROR * cable.length();
-        (judged && self.motion > limit && self.motion > ROUNDING * cable.length()).then(|| {
+        // where a cable touches, its place is known to a share of the radius of contact
+        let touches = !cable.snapshot.state.memory.contacts.is_empty();
+        let radius = if touches { cable.contact_radius() } else { 0.0 };
+        let least = (ROUNDING * cable.length()).max(DEPTH * radius);
+        (judged && self.motion > limit && self.motion > least).then(|| {
             let enough = more(elements, self.motion / (0.5 * limit));
             let (cable, displacement_m) = (cable.name().to_string(), self.displacement);
             Warning::CoarseMotion { cable, error_m: self.motion, displacement_m, elements, enough }
@@ -214,10 +221,13 @@ fn unseen_load(cable: &Cable) -> Option<Warning> {
 }
 
 impl Watch {
-    fn energy(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
-        let cable = || cable.name().to_string();
+    fn energy(&self, own: &Cable, _: Option<f64>) -> Option<Warning> {
+        let cable = || own.name().to_string();
         Some(match self.account.balance.verdict()? {
-            Verdict::Made(time_s, made_j, scale_j) => Warning::EnergyMade { cable: cable(), time_s, made_j, scale_j },
+            Verdict::Made(time_s, made_j, scale_j) => {
+                let discrete_gradient = own.integrator().method.uses_discrete_gradients();
+                Warning::EnergyMade { cable: cable(), time_s, made_j, scale_j, discrete_gradient }
+            }
             Verdict::Lost(time_s, lost_j, scale_j) => Warning::EnergyLost { cable: cable(), time_s, lost_j, scale_j },
         })
     }
@@ -232,7 +242,7 @@ fn untouched(cable: &Cable) -> Option<Warning> {
 impl Cable {
     /// Returns the warnings about the cable: those of all host steps since it is
     /// [watched](Self::set_watched); else those of its present shape and tension. Warnings about
-    /// section and material are always among them.
+    /// section and material are always among them. They are sorted by [`Level`].
     pub fn warnings(&self) -> Vec<Warning> {
         let noted = self.watch.as_deref().map(|watch| watch.warnings(self, None));
         let noted = noted.unwrap_or_else(|| {
@@ -240,7 +250,15 @@ impl Cable {
             watch.note(self);
             watch.warnings(self, None)
         });
-        self.size_warnings().chain(noted).collect()
+        let mut warnings: Vec<Warning> = self.size_warnings().chain(noted).collect();
+        fold::sort(&mut warnings);
+        warnings
+    }
+
+    /// Returns up to which level the cable is warned of by default: not of what is coarse with the
+    /// steps of fidelity game, which is for a bounded cost and not for accuracy.
+    pub fn warn_level(&self) -> Level {
+        if self.integrator() == Fidelity::Game.integrator(f64::INFINITY) { Level::Wrong } else { Level::Coarse }
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

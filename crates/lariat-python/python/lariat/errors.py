@@ -28,6 +28,10 @@ def _restored(kind: type[Error], message: str, fields: dict[str, Any]) -> Error:
     return kind(message, **fields)
 
 
+class ResultWarning(UserWarning):
+    """What a run tells of its scene, its mesh and its steps: a result that is probably not what was meant, wrong, or coarse."""
+
+
 class InvalidValueError(Error, ValueError):
     """A number outside its range, infinite or NaN: what, value, expected."""
 

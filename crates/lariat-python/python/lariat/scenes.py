@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import json
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from os import PathLike, fspath
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lariat import _lariat
-from lariat.errors import ReadError
+from lariat.errors import ReadError, ResultWarning
 
 Array = NDArray[np.float64]
 SceneLike = Union[str, "PathLike[str]", Mapping[str, Any]]
@@ -128,8 +129,8 @@ class Run:
 
     @property
     def warnings(self) -> list[str]:
-        """The warnings of the run, as text."""
-        return [w.get("text", str(w)) if isinstance(w, Mapping) else str(w) for w in self.summary["warnings"]]
+        """What is told of the warnings of the run, a line for each kind; ``summary["warnings"]`` has all, with levels."""
+        return list(self.summary["told"])
 
     def page(self) -> str:
         """Returns the page that plays the motion, as HTML that needs no network."""
@@ -191,6 +192,9 @@ def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool
     with _Bar(progress and total is not None, total or 0.0, "s") as bar:
         summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, error=error, progress=bar)
     run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
+    for line in run.warnings:
+        # the caller of run or statics
+        warnings.warn(line, ResultWarning, stacklevel=3)
     if failed is not None:
         failed.run = run
         raise failed
@@ -226,6 +230,8 @@ def run(
     ``summary["error"]`` has the claim, its parts and ``outcome``, which is ``"proven"`` or says why not.
 
     ``set`` overrides keys, as ``{"cable.sling.elements": 20}``. Progress is shown by tqdm if it is installed and the run takes longer than a second.
+
+    What a run tells of itself, a line for each kind, goes through Python's ``warnings`` as ``errors.ResultWarning``.
 
     Raises ``SceneError`` for a scene that is not accepted, and the error of the mechanics for a run that fails; its attribute ``run``
     then has the samples until there.

@@ -77,7 +77,7 @@ impl Contents {
 impl World {
     #[new]
     #[pyo3(signature = (gravity=None, *, dt=1.0/60.0, fidelity="game", rapier_steps=1, max_rapier_steps=32, sleep_speed=2e-3,
-        max_iterations=None, max_time=None))]
+        max_iterations=None, max_time=None, warn_level=None))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn new(
         gravity: Option<Vector>,
@@ -88,6 +88,7 @@ impl World {
         sleep_speed: f64,
         max_iterations: Option<u64>,
         max_time: Option<f64>,
+        warn_level: Option<&str>,
     ) -> PyResult<Self> {
         let mut world = PhysicsWorld::new();
         world.gravity = single("gravity (m/s^2)", gravity.map_or(lariat_ancf::STANDARD_GRAVITY, |v| v.0))?;
@@ -104,6 +105,10 @@ impl World {
         set.settings.sleep_speed = sleep_speed;
         set.settings.fidelity = self::fidelity(fidelity)?;
         set.settings.budget = ropes::budget(max_iterations, max_time)?;
+        let level = |name: &str| {
+            name.parse::<lariat_ancf::Level>().map_err(|problem| raise(Raise::new("UnknownKindError", problem)))
+        };
+        set.settings.warn_level = warn_level.map(level).transpose()?;
         let (bodies, attachments, sheaves, junctions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions })))
     }

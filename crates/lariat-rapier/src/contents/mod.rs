@@ -64,6 +64,9 @@ pub(crate) struct Slot {
     /// its energy balance closes.
     #[serde(skip)]
     pub alone: bool,
+    /// Whether it is off an anchor by more than the limit.
+    #[serde(skip)]
+    pub parted: bool,
     /// By how much what holds it was rounded in the last host step, in m.
     #[serde(skip)]
     pub rounding: f64,
@@ -126,6 +129,7 @@ impl Contents {
             touched: Vec::new(),
             ignored: Vec::new(),
             alone: false,
+            parted: false,
             rounding: 0.0,
             cable,
         };

@@ -1,8 +1,11 @@
 //! Warnings about cables in their world, beside those that a cable has by itself.
 //!
 //! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of
-//! [`lariat_ancf::warning`] is an [`Event::Warning`] once, after the host step in which it came up.
-//! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time.
+//! [`lariat_ancf::warning`] is an [`Event::Warning`] once, after the host step in which it came up,
+//! and is logged, for programs that do not look at events.
+//! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time. Both are told up to
+//! the level of [`Settings::warn_level`](crate::Settings::warn_level), and but for what follows
+//! from what is told of the same cable ([`lariat_ancf::warning::fold`]).
 
 use crate::body::unsettled::Unsettled;
 use crate::contents::Contents;
@@ -15,8 +18,10 @@ use crate::handle::{AttachmentHandle, CableHandle};
 use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
 use crate::scales::read::JOLT;
+use lariat_ancf::Level;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::warning::fold::{self, Judged, Sign};
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;
@@ -88,8 +93,8 @@ pub enum Warning {
     },
     /// Cable and body of an attachment that has not been stepped have different velocities.
     #[error(
-        "cable {name:?}: cable and body start with velocities {difference:.3e} m/s apart where they are attached, which gives a shock: give both the same \
-         velocity there"
+        "cable {name:?}: cable and body start with velocities {difference:.3e} m/s apart where they are attached, a shock of {force:.1e} N: give both the \
+         same velocity there"
     )]
     VelocityJump {
         /// The attachment.
@@ -98,6 +103,8 @@ pub enum Warning {
         name: String,
         /// Difference of the velocities in m/s.
         difference: f64,
+        /// Force in N of the wave that it makes in the cable.
+        force: f64,
     },
     /// A cable that touches bodies would bounce off a collider with more of its velocity than it
     /// can.
@@ -117,8 +124,85 @@ pub enum Warning {
     },
 }
 
-/// Returns the warnings about all cables of a set.
-pub(crate) fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
+impl Warning {
+    /// Returns how much depends on it.
+    pub fn level(&self) -> Level {
+        match self {
+            Warning::Cable { warning, .. } => warning.level(),
+            Warning::InCollider { .. } | Warning::VelocityJump { .. } | Warning::HighRestitution { .. } => Level::Setup,
+            Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
+        }
+    }
+
+    /// Returns the cable that it is about.
+    fn cable(&self, contents: &Contents) -> Option<CableHandle> {
+        match self {
+            Warning::Cable { cable, .. }
+            | Warning::InCollider { cable, .. }
+            | Warning::HighRestitution { cable, .. } => Some(*cable),
+            Warning::OpenGap { attachment, .. }
+            | Warning::Unsettled { attachment, .. }
+            | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
+        }
+    }
+}
+
+impl Judged for Warning {
+    fn level(&self) -> Level {
+        self.level()
+    }
+
+    fn sign(&self) -> Option<Sign> {
+        match self {
+            Warning::Cable { warning, .. } => warning.sign(),
+            Warning::InCollider { .. } => Some(Sign::Inside),
+            Warning::OpenGap { .. } => Some(Sign::Gap),
+            Warning::VelocityJump { .. } => Some(Sign::Shock),
+            Warning::Unsettled { .. } | Warning::HighRestitution { .. } => None,
+        }
+    }
+
+    fn same_kind(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Warning::Cable { warning: a, .. }, Warning::Cable { warning: b, .. }) => a.same_kind(b),
+            _ => core::mem::discriminant(self) == core::mem::discriminant(other),
+        }
+    }
+
+    fn time(&self) -> Option<f64> {
+        match self {
+            Warning::Cable { warning, .. } => warning.time(),
+            // of a gap the time is that of the largest one, which its consequences may precede
+            _ => None,
+        }
+    }
+
+    fn severity(&self) -> f64 {
+        match self {
+            Warning::Cable { warning, .. } => warning.severity(),
+            Warning::InCollider { depth, .. } => *depth,
+            Warning::OpenGap { gap, .. } => gap.gap,
+            Warning::Unsettled { how, .. } => how.force,
+            Warning::VelocityJump { force, .. } => *force,
+            Warning::HighRestitution { restitution, .. } => *restitution,
+        }
+    }
+}
+
+/// Returns what is told of all cables of a set, by level, up to the level that is asked for.
+pub(crate) fn told(contents: &Contents, world: &PhysicsWorld, asked: Option<Level>) -> Vec<Warning> {
+    let mut warnings = all(contents, world);
+    fold::sort(&mut warnings);
+    let cable = |warning: &Warning| warning.cable(contents);
+    let own = |warning: &Warning| Some(contents.cable(cable(warning)?).ok()?.warn_level());
+    let most = |warning: &Warning| asked.or_else(|| own(warning)).unwrap_or(Level::Coarse);
+    warnings.retain(|warning| warning.level() <= most(warning));
+    let explained = fold::explained(&warnings, cable, |_| true);
+    warnings.into_iter().zip(explained).filter_map(|(warning, cause)| cause.is_none().then_some(warning)).collect()
+}
+
+/// Returns all warnings about the cables of a set.
+fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (cable, slot) in contents.cables.iter() {
         let handle = CableHandle(cable as u32);
@@ -186,18 +270,22 @@ fn of_attachment(
     }
     let anchor = vector(body.translation()) + rotation(*body.rotation()) * own.anchor;
     let there = vector(body.velocity_at_point(to_vector(&anchor)));
-    let difference = (cable.sample(own.arc_length).ok()?.velocity - there).norm();
+    let difference = cable.sample(own.arc_length).ok()?.velocity - there;
     let rounding = HOST_ROUNDING * f64::from(Real::EPSILON) * there.amax();
-    (difference > JOLT + rounding).then_some(Warning::VelocityJump { attachment, name, difference })
+    let mass = if body.is_dynamic() { f64::from(body.mass()) } else { 0.0 };
+    let shock = cable.shock(own.arc_length, &difference, mass * vector(world.gravity).norm()).ok()?;
+    let (difference, force) = (difference.norm(), shock.force);
+    let due = difference > JOLT + rounding && shock.is_large();
+    due.then_some(Warning::VelocityJump { attachment, name, difference, force })
 }
 
 /// Reads the cables at the end of a host step, and tells them first whether nothing else acts on
 /// them and by how much what holds them was rounded; what is new is an event.
-pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut Vec<Event>) {
+pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, asked: Option<Level>, events: &mut Vec<Event>) {
     let dt = f64::from(world.integration_parameters.dt);
     let Contents { cables, attachments, junctions, sheaves, drums, records, .. } = contents;
     for slot in cables.values_mut() {
-        (slot.alone, slot.rounding) = (slot.cable.effects().contact.is_none(), 0.0);
+        (slot.alone, slot.parted, slot.rounding) = (slot.cable.effects().contact.is_none(), false, 0.0);
     }
     let at_junctions = junctions.values().flat_map(|junction| &junction.nodes).map(|(cable, _)| *cable);
     let at_sheaves = sheaves.values().flat_map(|sheave| sheave.ends()).map(|(cable, _)| cable);
@@ -216,12 +304,17 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut V
             continue;
         }
         let opened = attachment.watch.note(attachment.gap(), slot.cable.time(), slot.cable.length());
+        slot.parted |= attachment.watch.open(slot.cable.length()).is_some();
         if let Some(gap) = opened.filter(|_| slot.cable.is_watched()) {
-            events.push(Event::GapOpened { attachment: AttachmentHandle(index as u32), gap });
+            let attachment = AttachmentHandle(index as u32);
+            log::warn!("{}", Warning::OpenGap { attachment, name: slot.cable.name().to_string(), gap });
+            events.push(Event::GapOpened { attachment, gap });
         }
         let how = records.get(attachment.body).and_then(|record| record.settling.due());
         if let Some(how) = how.filter(|_| slot.cable.is_watched()) {
-            events.push(Event::Unsettled { attachment: AttachmentHandle(index as u32), how });
+            let attachment = AttachmentHandle(index as u32);
+            log::warn!("{}", Warning::Unsettled { attachment, name: slot.cable.name().to_string(), how });
+            events.push(Event::Unsettled { attachment, how });
         }
     }
     records.settle_told();
@@ -229,6 +322,12 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, events: &mut V
         let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
         let cable = CableHandle(index as u32);
         slot.cable.set_end_rounding(slot.rounding, dt);
-        slot.cable.note_host_step(slot.alone, |warning| events.push(Event::Warning { cable, warning }));
+        let (most, parted) = (asked.unwrap_or_else(|| slot.cable.warn_level()), slot.parted);
+        slot.cable.note_host_step(slot.alone, |warning| {
+            if warning.level() <= most && !(parted && fold::explains(Sign::Gap, &warning)) {
+                log::warn!("{warning}");
+                events.push(Event::Warning { cable, warning });
+            }
+        });
     }
 }

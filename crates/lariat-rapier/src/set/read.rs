@@ -52,10 +52,12 @@ impl CableSet {
 
     /// Returns the warnings about all cables: those that the cables have
     /// ([`Cable::warnings`](lariat_ancf::Cable::warnings)), places inside colliders, restitution
-    /// beyond what impacts of cables have, gaps, and attachments that start with a shock. Worth a
-    /// look when a world has been built.
+    /// beyond what impacts of cables have, gaps, and attachments that start with a shock. They are
+    /// sorted by [`Level`](lariat_ancf::Level), up to that of
+    /// [`Settings::warn_level`](crate::Settings::warn_level); what follows from one that is told is
+    /// left out. Worth a look when a world has been built.
     pub fn warnings(&self, world: &PhysicsWorld) -> Vec<Warning> {
-        warnings::all(&self.contents, world)
+        warnings::told(&self.contents, world, self.settings.warn_level)
     }
 
     /// Returns the gap of an attachment if it is longer than 2e-3 of the length of its cable: the

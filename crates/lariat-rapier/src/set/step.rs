@@ -81,7 +81,7 @@ impl CableSet {
         step::finish(&mut self.stepper, &mut self.contents, world, host);
         if is_complete {
             contact::events::compare(&mut self.contents, &mut self.stepper.events);
-            warnings::note(&mut self.contents, world, &mut self.stepper.events);
+            warnings::note(&mut self.contents, world, self.settings.warn_level, &mut self.stepper.events);
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
         }
         self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))

@@ -3,7 +3,7 @@
 use crate::scales::TIME_ROUNDING;
 use crate::scales::step::{LONGEST_PIECE, MAX_RAPIER_STEPS, RAPIER_STEPS, SLEEP_SPEED};
 use crate::step::budget::Budget;
-use lariat_ancf::Fidelity;
+use lariat_ancf::{Fidelity, Level};
 use serde::{Deserialize, Serialize};
 
 /// How a [`CableSet`](crate::CableSet) steps. All of its cables share one number of Rapier steps.
@@ -29,6 +29,11 @@ pub struct Settings {
     /// each warning is an event. Default true; each cable is then read once per host step.
     #[serde(default = "watch")]
     pub watch: bool,
+    /// Up to which level warnings are told. Default: of each cable up to
+    /// [`Cable::warn_level`](lariat_ancf::Cable::warn_level), which leaves out what is coarse with
+    /// the steps of fidelity game.
+    #[serde(default)]
+    pub warn_level: Option<Level>,
     /// The largest amount of work in a host step. Default: no limit.
     #[serde(default)]
     pub budget: Option<Budget>,
@@ -69,6 +74,7 @@ impl Default for Settings {
             sleep_speed: SLEEP_SPEED,
             fidelity: fidelity(),
             watch: watch(),
+            warn_level: None,
             budget: None,
         }
     }

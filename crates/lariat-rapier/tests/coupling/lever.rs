@@ -1,9 +1,9 @@
 //! Hinged bodies that swing with loads on ropes: a lever, against its equations of motion, and booms, as multibodies and on impulse joints.
 
 use super::common::{cable, gap};
-use lariat_rapier::lariat_ancf::{At, Fidelity, Section};
+use lariat_rapier::lariat_ancf::{At, Fidelity, Section, Warning};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableSet, Warning};
+use lariat_rapier::{AttachmentKind, CableSet};
 use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
 
 /// A lever about its middle, and a load on a rope of 1 m at each end.
@@ -187,9 +187,8 @@ impl Boom<'_> {
             path.push(Vector2::new(f64::from(x.x), f64::from(x.y)));
             widest = widest.max(gap(&set));
         }
-        use lariat_rapier::lariat_ancf::Warning::{EnergyLost, LongSteps};
-        let of_steps = |w: &Warning| matches!(w, Warning::Cable { warning: EnergyLost { .. } | LongSteps { .. }, .. });
-        (path, widest, set.warnings(&world).iter().any(of_steps))
+        let of_steps = |w: &Warning| matches!(w, Warning::EnergyLost { .. } | Warning::LongSteps { .. });
+        (path, widest, set.get(line).unwrap().warnings().iter().any(of_steps))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Random numbers and what the families share.
 
-use lariat_rapier::lariat_ancf::{Cable, CableBuilder, Section, Vector3};
+use lariat_rapier::lariat_ancf::{Cable, CableBuilder, Level, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableSet, Warning};
 use std::ops::Range;
@@ -42,20 +42,24 @@ pub fn cable(from: Vector3<f64>, to: Vector3<f64>, section: Section) -> CableBui
     Cable::builder().points([from, to]).section(section)
 }
 
-/// Returns by name what is told of the accuracy of a run. What is told of meshes is left out: what they are compared with has the same.
+/// Returns by level and name what is told of the accuracy of a run, whatever the fidelity. What is told of meshes is left out: what they are compared with has
+/// the same.
 pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
+    let mut set = set.clone();
+    set.settings.warn_level = Some(Level::Coarse);
     let named = |warning: &Warning| {
         let text = match warning {
             Warning::Cable { warning, .. } => format!("{warning:?}"),
             warning => format!("{warning:?}"),
         };
-        text.split([' ', '(']).next().unwrap_or("").to_string()
+        let name = text.split([' ', '(']).next().unwrap_or("");
+        (warning.level(), name.to_string())
     };
     let of_mesh = ["CoarseMesh", "CoarseMotion", "CoarseElement", "LargeStrain", "Stubby", "SoftMaterial"];
-    let mut names: Vec<String> = set.warnings(world).iter().map(named).collect();
+    let mut names: Vec<(Level, String)> = set.warnings(world).iter().map(named).collect();
     // the sections are drawn at random, of materials that carry waves faster than any does
-    names.retain(|name| !of_mesh.contains(&name.as_str()) && name != "FastWaves");
-    names
+    names.retain(|(_, name)| !of_mesh.contains(&name.as_str()) && name != "FastWaves");
+    names.into_iter().map(|(level, name)| format!("{} {name}", level.name())).collect()
 }
 
 /// Runs the scenes of seeds, those of the test or those that the user asks for in `LARIAT_SEEDS`, of which it prints each: `run` returns whether a scene
@@ -71,6 +75,8 @@ pub fn judge(of_test: Range<u64>, false_alarms: f64, run: impl Fn(u64) -> (bool,
         .and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
     let mut wrong = Vec::new();
     let (mut right, mut alarms) = (0, Vec::new());
+    // of right and of wrong scenes those that are told of as setup or wrong, as coarse alone, and not at all
+    let mut counts = [[0; 3]; 2];
     for seed in range.unwrap_or(of_test) {
         let (off, told, case) = run(seed);
         let verdict = match (off, told.is_empty()) {
@@ -82,6 +88,8 @@ pub fn judge(of_test: Range<u64>, false_alarms: f64, run: impl Fn(u64) -> (bool,
         if asked.is_some() {
             println!("{verdict}{case}");
         }
+        let coarse = told.iter().all(|name| name.starts_with(Level::Coarse.name()));
+        counts[usize::from(off)][if told.is_empty() { 2 } else { usize::from(coarse) }] += 1;
         if off {
             wrong.extend(told.is_empty().then_some(case));
             continue;
@@ -89,7 +97,7 @@ pub fn judge(of_test: Range<u64>, false_alarms: f64, run: impl Fn(u64) -> (bool,
         right += 1;
         alarms.extend((!told.is_empty()).then(|| format!("{seed}: {told:?}")));
     }
-    println!("{} of {right} that are right are told of", alarms.len());
+    println!("told as setup or wrong, coarse, nothing: of right scenes {:?}, of wrong ones {:?}", counts[0], counts[1]);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let most = false_alarms * f64::from(right);
     assert!(asked.is_some() || alarms.len() as f64 <= most, "of {right} that are right:\n{}", alarms.join("\n"));

@@ -2,6 +2,8 @@
 
 const element = (id) => document.getElementById(id);
 const canvas = element("scene"), pen = canvas.getContext("2d"), slider = element("slider");
+// Warnings above the picture.
+const LINES = 3;
 let current = 0, playing = false, clock = 0, before = 0;
 
 const figure = (x, digits = 4) => (x === null || x === undefined ? "not finite" : +x === 0 ? "0" : String(+Number(x).toPrecision(digits)));
@@ -31,15 +33,28 @@ function fillHeader() {
     row.append(dt, dd);
     element("summary").append(row);
   }
-  const say = (text, failed) => {
+  const say = (text, kind, to = element("words")) => {
     const p = document.createElement("p");
-    p.textContent = text;
-    if (failed) p.className = "failed";
-    element("words").append(p);
+    p.textContent = p.title = text;
+    if (kind) p.className = kind;
+    to.append(p);
   };
-  if (s.failed) say(`failed: ${s.failed}`, true);
-  s.warnings.forEach((warning) => say(`warning: ${warning.text}`));
-  if (frames.length === 0) say("nothing was sampled", true);
+  if (s.failed) say(`failed: ${s.failed}`, "failed");
+  if (frames.length === 0) say("nothing was sampled", "failed");
+  s.told.slice(0, LINES).forEach((text) => say(`warning: ${text}`, "line"));
+  fillDetails(s, say);
+}
+
+// All warnings in full: what is told, then what each of them is about and follows from.
+function fillDetails(s, say) {
+  if (s.warnings.length === 0) return;
+  const details = document.createElement("details"), head = document.createElement("summary");
+  const more = s.told.length - LINES;
+  head.textContent = more > 0 ? `${more} more, and all ${s.warnings.length} warnings in full` : `all ${s.warnings.length} warnings in full`;
+  details.append(head);
+  s.told.forEach((text) => say(text, "told", details));
+  s.warnings.forEach((w) => say(`${w.level}${w.explained_by ? `, follows from ${w.explained_by}` : ""}: ${w.text}`, "", details));
+  element("words").append(details);
 }
 
 function fillLegend() {

@@ -12,8 +12,9 @@ pub use keys::print as keys;
 pub use tables::rules;
 
 use crate::run::{self, Options, State, Summary};
-use crate::{Error, Purpose, Scene, Warning};
+use crate::{Error, Purpose, Scene};
 use clap::{Args, Parser, Subcommand};
+use lariat_ancf::Level;
 use lariat_ancf::study::Resolution;
 use std::cell::RefCell;
 use std::ffi::OsString;
@@ -82,6 +83,10 @@ struct SceneArguments {
     /// Choose elements and integrator so that no position is off by more than this, in m, and prove it by runs with several meshes
     #[arg(long, value_name = "METRES")]
     error: Option<f64>,
+    /// Tell warnings up to this level: setup (not what is meant), wrong (a result that is off) or coarse (mesh and steps). Default:
+    /// coarse, of cables with fidelity game wrong
+    #[arg(long, value_name = "LEVEL")]
+    warn: Option<Level>,
     /// Write DIR/run.usda, the motion as OpenUSD, too
     #[arg(long)]
     usd: bool,
@@ -161,6 +166,7 @@ fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<S
         stop,
         progress: Some(&mut report),
         warn: Some(&mut warn),
+        warn_level: arguments.warn,
         error: arguments.error,
         pilot: Some(&mut pilot),
         usd: arguments.usd,
@@ -177,6 +183,7 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
     let mut pilot = |resolution: &Resolution| bar.begin_run(resolution);
     let mut options = Options {
         warn: Some(&mut warn),
+        warn_level: arguments.warn,
         error: arguments.error,
         pilot: Some(&mut pilot),
         usd: arguments.usd,
@@ -193,6 +200,6 @@ fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
     Ok(format!("scene: {}\n", out.display()))
 }
 
-fn warn(warning: &Warning) {
+fn warn(warning: &str) {
     let _ = writeln!(io::stderr(), "warning: {warning}");
 }

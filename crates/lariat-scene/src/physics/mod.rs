@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 
 /// Rapier steps of a host step: a run is for accuracy, in contacts too, and its cost is that of the cables.
 const RAPIER_STEPS: u32 = 4;
-/// Largest difference of velocities at the start without a warning, in m/s.
+/// Largest difference of velocities at the start that is rounding, in m/s.
 const JOLT: f64 = 1e-5;
 
 /// The bodies of a scene, and its cables during a run.
@@ -223,24 +223,34 @@ impl Physics {
         ends.is_some_and(|ends| ends.into_iter().any(at_end))
     }
 
-    /// Returns a warning for each attachment whose two sides start at different velocities.
+    /// Returns whether the two sides of an attachment start at different velocities, and a warning
+    /// for each where that is a shock.
     ///
     /// # Errors
     /// [`Error::Mechanics`]; not for a checked scene.
-    pub fn jolts(&self, scene: &Scene) -> Result<Vec<Warning>, Error> {
-        let (cables, mut jolts) = (self.cables(), Vec::new());
+    pub fn jolts(&self, scene: &Scene) -> Result<(bool, Vec<Warning>), Error> {
+        let (cables, mut jolts, mut differ) = (self.cables(), Vec::new(), false);
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else { continue };
             let point = cables[attachment.cable].sample(attachment.arc_length)?;
             let state = self.body(scene, body, 0.0);
             let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
-            let difference = (point.velocity - there).norm();
-            if difference > JOLT {
-                let attachment = attachment.name.clone();
-                jolts.push(Warning::VelocityJump { attachment, difference_m_s: difference });
+            let difference = point.velocity - there;
+            if difference.norm() <= JOLT {
+                continue;
+            }
+            differ = true;
+            let own = &self.world.bodies[self.bodies[body]];
+            let mass = if own.is_dynamic() { f64::from(own.mass()) } else { 0.0 };
+            let shock =
+                cables[attachment.cable].shock(attachment.arc_length, &difference, mass * scene.gravity.norm())?;
+            if shock.is_large() {
+                let (attachment, cable) = (attachment.name.clone(), scene.cables[attachment.cable].name.clone());
+                let (force_n, difference_m_s) = (shock.force, difference.norm());
+                jolts.push(Warning::VelocityJump { attachment, cable, force_n, difference_m_s });
             }
         }
-        Ok(jolts)
+        Ok((differ, jolts))
     }
 
     /// Advances cables and bodies from one time to another, in s.

@@ -11,7 +11,8 @@ impl Physics {
         let attachments = self.attachments.iter().zip(&scene.attachments);
         let open = attachments.filter_map(|(handle, attachment)| {
             let OpenGap { gap, time, closed, .. } = self.cables.open_gap((*handle)?).ok()??;
-            Some(Warning::OpenGap { attachment: attachment.name.clone(), time_s: time, gap_m: gap, closed })
+            let cable = scene.cables[attachment.cable].name.clone();
+            Some(Warning::OpenGap { attachment: attachment.name.clone(), cable, time_s: time, gap_m: gap, closed })
         });
         open.collect()
     }
@@ -22,7 +23,8 @@ impl Physics {
         let unsettled = attachments.filter_map(|(handle, attachment)| {
             let how = self.cables.unsettled((*handle)?).ok()??;
             let (time_s, steps, force) = (how.time, how.steps, how.force);
-            Some(Warning::Unsettled { attachment: attachment.name.clone(), time_s, steps, force })
+            let cable = scene.cables[attachment.cable].name.clone();
+            Some(Warning::Unsettled { attachment: attachment.name.clone(), cable, time_s, steps, force })
         });
         unsettled.collect()
     }

@@ -125,7 +125,7 @@ pub(super) fn conduct(
             done.output = done.output.move_to(&scene, files)?;
             done.world.warnings.extend(claim.warning());
             if let Some(warn) = &mut options.warn {
-                done.world.warnings.iter().for_each(&mut **warn);
+                done.world.told().iter().for_each(|line| warn(line));
             }
             Ok(done.finish(Some(claim)))
         }
@@ -149,8 +149,7 @@ fn described(error: &StudyError<Stopped>) -> String {
 fn velocities_jump(scene: &Scene, done: &Done) -> bool {
     let corners = |body: &BodyScene| body.path.iter().any(|(time, _)| 0.0 < *time && *time < scene.duration);
     let bodies = scene.attachments.iter().filter_map(|attachment| attachment.body);
-    done.world.warnings.iter().any(|warning| matches!(warning, Warning::VelocityJump { .. }))
-        || bodies.into_iter().any(|body| corners(&scene.bodies[body]))
+    done.world.velocities_jump || bodies.into_iter().any(|body| corners(&scene.bodies[body]))
 }
 
 /// Refuses an error that rounding does not allow to prove, and cables that error control does not solve for.

@@ -64,8 +64,8 @@ pub use world::World;
 use crate::error::Error;
 use crate::scene::body::BodyKind;
 use crate::scene::{Purpose, Scene, Target};
-use crate::warning::Warning;
 use cpu_time::ProcessTime;
+use lariat_ancf::Level;
 use lariat_ancf::study::{Record, Resolution};
 use output::{Kept, Output};
 use schedule::{Schedule, nominal};
@@ -82,8 +82,11 @@ pub struct Options<'a> {
     pub stop: Arc<AtomicBool>,
     /// Called after each host step with the simulated time in s.
     pub progress: Option<&'a mut dyn FnMut(f64)>,
-    /// Called with each warning of [`Summary::warnings`], once, as soon as it is known.
-    pub warn: Option<&'a mut dyn FnMut(&Warning)>,
+    /// Called with each line of [`Summary::told`], once, as soon as it is known.
+    pub warn: Option<&'a mut dyn FnMut(&str)>,
+    /// Up to which level warnings are told. Default: of each cable up to
+    /// [`Cable::warn_level`](lariat_ancf::Cable::warn_level).
+    pub warn_level: Option<Level>,
     /// Error in m of all positions that is asked for: the scene is run with several meshes and tolerances, in place of its own `elements` and
     /// `integrator`, until two agree, and the results are those of the finest. See [`lariat_ancf::study`].
     pub error: Option<f64>,
@@ -148,9 +151,10 @@ struct Done {
 impl Done {
     /// Writes the summary and the page.
     fn finish(self, claim: Option<ErrorClaim>) -> Recorded {
-        let Done { world, output, cpu, wall, balance, outcome } = self;
+        let Done { mut world, output, cpu, wall, balance, outcome } = self;
+        let told = world.told();
         let summary = Summary::of(&world, cpu, wall, outcome.as_ref().err());
-        let summary = Summary { error: claim, energy_balance: balance, ..summary };
+        let summary = Summary { error: claim, energy_balance: balance, told, ..summary };
         let kept = output.finish(&summary, &world);
         Recorded { world, summary, kept, outcome }
     }
@@ -219,13 +223,18 @@ fn simulate(
     // a scene that cannot be built leaves nothing in the folder
     let mut output = open(scene)?;
     let mut watch = Watch::new(&world, purpose);
-    let mut told = 0;
-    let mut tell = |world: &World, options: &mut Options<'_>| {
+    world.warn_level = options.warn_level;
+    let mut told: Vec<String> = Vec::new();
+    let mut tell = |world: &mut World, options: &mut Options<'_>| {
         // the runs of a study have the same warnings, and the last one's are told at its end
         if let (Some(warn), None) = (&mut options.warn, options.error) {
-            world.warnings[told..].iter().for_each(&mut **warn);
+            for line in world.told() {
+                if !told.contains(&line) {
+                    warn(&line);
+                    told.push(line);
+                }
+            }
         }
-        told = world.warnings.len();
     };
     let started = match options.from.as_ref().filter(|_| purpose != Purpose::Static) {
         Some(state) => world.resume(state),
@@ -237,7 +246,7 @@ fn simulate(
             watch = Watch::new(&world, purpose);
         }
         watch.note(&world)?;
-        tell(&world, options);
+        tell(&mut world, options);
         if purpose != Purpose::Static {
             return advance(scene, &mut world, &mut output, &mut watch, options, record.take());
         }
@@ -247,7 +256,7 @@ fn simulate(
     });
     let noted = watch.warnings(&world, options.error);
     world.warnings.extend(noted);
-    tell(&world, options);
+    tell(&mut world, options);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
     let (cpu, wall) = (cpu.saturating_sub(spent.0), wall.saturating_sub(spent.1));
     let balance = (purpose != Purpose::Static).then(|| watch.balance());

@@ -104,7 +104,9 @@ impl World {
     /// Warns of what the start of a run with bodies shows.
     fn look_at_start(&mut self) -> Result<(), Error> {
         if let Some(physics) = &mut self.physics {
-            self.warnings.extend(physics.jolts(&self.scene)?);
+            let (differ, jolts) = physics.jolts(&self.scene)?;
+            self.velocities_jump = differ;
+            self.warnings.extend(jolts);
             self.warnings.extend(physics.inside(&self.scene));
         }
         Ok(())

@@ -58,7 +58,10 @@ pub struct Summary {
     /// The energy balance; only of a run in time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy_balance: Option<EnergyBalance>,
-    /// Warnings.
+    /// What is told of the warnings, a line for each kind, by level.
+    #[serde(default)]
+    pub told: Vec<String>,
+    /// All warnings, by level.
     #[serde(serialize_with = "crate::warning::with_texts")]
     pub warnings: Vec<Warning>,
     /// Cables that broke or were cut, in their order; only if there are any.
@@ -106,6 +109,7 @@ impl Summary {
             energy_start_j: finite(world.energy_start),
             energy_end_j: finite(world.energy(None).total()),
             energy_balance: None,
+            told: Vec::new(),
             warnings: world.warnings.clone(),
             breaks: world.breaks.clone(),
             failed: failed.map(ToString::to_string),

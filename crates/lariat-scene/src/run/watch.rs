@@ -6,6 +6,7 @@ use super::wheels::WheelWatch;
 use crate::error::Error;
 use crate::scene::Purpose;
 use crate::warning::Warning;
+use lariat_ancf::integrate::OneStep;
 use lariat_ancf::warning::balance::{EnergyBalance, Verdict};
 
 /// The readings of the cables of a run so far, and its energy balance.
@@ -53,9 +54,12 @@ impl Watch {
         self.account.balance
     }
 
-    fn energy_warning(&self) -> Option<Warning> {
+    fn energy_warning(&self, world: &World) -> Option<Warning> {
+        let discrete_gradient = world.cables().iter().all(|cable| cable.integrator().method.uses_discrete_gradients());
         Some(match self.account.balance.verdict()? {
-            Verdict::Made(time_s, made_j, scale_j) => Warning::EnergyMade { time_s, made_j, scale_j },
+            Verdict::Made(time_s, made_j, scale_j) => {
+                Warning::EnergyMade { time_s, made_j, scale_j, discrete_gradient }
+            }
             Verdict::Lost(time_s, lost_j, scale_j) => Warning::EnergyLost { time_s, lost_j, scale_j },
         })
     }
@@ -71,7 +75,7 @@ impl Watch {
         let of_joints = world.physics.iter().flat_map(|physics| physics.unsettled(&world.scene));
         of_cables
             .map(Warning::Cable)
-            .chain(self.energy_warning())
+            .chain(self.energy_warning(world))
             .chain(of_wheels)
             .chain(of_stops)
             .chain(of_gaps)

@@ -4,8 +4,9 @@ use super::{BodyStatics, CableStatics, Parted};
 use crate::error::Error;
 use crate::physics::Physics;
 use crate::scene::{Engine, Scene};
-use crate::warning::Warning;
-use lariat_ancf::Cable;
+use crate::warning::{Warning, lines};
+use lariat_ancf::warning::fold;
+use lariat_ancf::{Cable, Level};
 
 /// The cables and bodies of a scene in their present state.
 #[derive(Clone)]
@@ -25,6 +26,10 @@ pub struct World {
     pub(super) cut: Vec<bool>,
     pub(super) breaks: Vec<Parted>,
     pub(super) warnings: Vec<Warning>,
+    /// Up to which level warnings are told, if that was asked for.
+    pub(super) warn_level: Option<Level>,
+    /// Whether cables and bodies start at different velocities where they are attached.
+    pub(super) velocities_jump: bool,
     /// Iterations of the statics, which are Newton iterations too.
     pub(super) static_iterations: u64,
     pub(super) energy_start: f64,
@@ -55,6 +60,8 @@ impl World {
             cut: vec![false; scene.parts.len()],
             breaks: Vec::new(),
             warnings: Vec::new(),
+            warn_level: None,
+            velocities_jump: false,
             static_iterations: 0,
             energy_start: 0.0,
             statics: None,
@@ -67,6 +74,17 @@ impl World {
             }
         }
         Ok(world)
+    }
+
+    /// Sorts the warnings by level, and returns what they tell. Up to which level a cable is warned
+    /// of by default is its own choice, and what is about the run is told if it is of any cable.
+    pub(super) fn told(&mut self) -> Vec<String> {
+        fold::sort(&mut self.warnings);
+        let levels: Vec<(&str, Level)> = self.cables().iter().map(|c| (c.name(), c.warn_level())).collect();
+        let most = levels.iter().map(|(_, level)| *level).max().unwrap_or(Level::Coarse);
+        let of = |name: &str| levels.iter().find(|(cable, _)| *cable == name).map_or(most, |(_, level)| *level);
+        let tells = |w: &Warning| w.level() <= self.warn_level.unwrap_or_else(|| w.cable().map_or(most, of));
+        lines(&self.warnings, tells)
     }
 
     /// Records the energy at the start.

@@ -2,20 +2,28 @@
 
 mod bodies;
 mod drawn;
+mod levels;
 mod mesh;
+mod shipped;
 mod through;
 mod units;
 
+use lariat_ancf::Level;
 use lariat_scene::run::{self, Options, Summary};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 
-/// Runs or settles a scene; returns its warnings as told while it ran.
+/// Runs or settles a scene; returns all of its warnings.
 fn warned(text: &str, purpose: Purpose) -> Vec<Warning> {
+    summary_of(text, purpose, None).warnings
+}
+
+/// Runs or settles a scene that tells warnings up to a level; returns its summary.
+fn summary_of(text: &str, purpose: Purpose, warn_level: Option<Level>) -> Summary {
     let scene = Scene::parse("scene.toml", text, &[], purpose).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let folder = tempfile::tempdir().unwrap();
     let mut told = Vec::new();
-    let mut warn = |warning: &Warning| told.push(warning.clone());
-    let mut options = Options { warn: Some(&mut warn), ..Options::default() };
+    let mut warn = |line: &str| told.push(line.to_string());
+    let mut options = Options { warn: Some(&mut warn), warn_level, ..Options::default() };
     let outcome: Result<Summary, Error> = match purpose {
         Purpose::Run | Purpose::Resume => run::run(&scene, folder.path(), &mut options),
         Purpose::Static => run::statics(&scene, folder.path(), &mut options),
@@ -23,13 +31,18 @@ fn warned(text: &str, purpose: Purpose) -> Vec<Warning> {
     let json = std::fs::read_to_string(folder.path().join("summary.json")).unwrap();
     let summary: Summary = serde_json::from_str(&json).unwrap();
     // a run that fails tells and writes them, too
-    assert_eq!(summary.warnings, told, "{:?}", outcome.err());
+    told.sort();
+    let mut lines = summary.told.clone();
+    lines.sort();
+    assert_eq!(lines, told, "{:?}", outcome.err());
     let texts: serde_json::Value = serde_json::from_str(&json).unwrap();
-    for (warning, written) in told.iter().zip(texts["warnings"].as_array().unwrap()) {
+    for (warning, written) in summary.warnings.iter().zip(texts["warnings"].as_array().unwrap()) {
         assert_eq!(written["text"].as_str(), Some(warning.to_string().as_str()));
+        assert_eq!(written["level"].as_str(), Some(warning.level().name()));
         assert!(written["kind"].is_string(), "{written}");
     }
-    told
+    assert!(summary.warnings.is_sorted_by_key(Warning::level), "{:?}", summary.warnings);
+    summary
 }
 
 /// A pendulum of a wire and a bob, `angle` rad from the vertical: wire `[length m, diameter m, E Pa]`.

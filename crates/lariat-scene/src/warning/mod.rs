@@ -2,9 +2,16 @@
 //!
 //! A warning changes neither results nor exit codes. It says where, how much, and what to do.
 
-use serde::{Deserialize, Serialize, Serializer};
+mod level;
+mod told;
 
-/// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields with `kind` and `text`.
+pub(crate) use told::{lines, with_texts};
+
+use lariat_ancf::warning::less_energy;
+use serde::{Deserialize, Serialize};
+
+/// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields with `kind`, `text`, `level` and,
+/// if it follows from another one, `explained_by`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -65,6 +72,9 @@ pub enum Warning {
     OpenGap {
         /// Name of the attachment.
         attachment: String,
+        /// Name of its cable.
+        #[serde(default)]
+        cable: String,
         /// Time in s.
         time_s: f64,
         /// Largest distance in m since they met, or else the least.
@@ -81,6 +91,9 @@ pub enum Warning {
     Unsettled {
         /// Name of the attachment.
         attachment: String,
+        /// Name of its cable.
+        #[serde(default)]
+        cable: String,
         /// Time in s at the end of the worst half second.
         time_s: f64,
         /// Share of the steps in which the body deviated from its prediction.
@@ -143,8 +156,8 @@ pub enum Warning {
     },
     /// Integration makes energy.
     #[error(
-        "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): take a smaller tolerance, \
-         shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none", percent = 100.0 * .made_j / .scale_j
+        "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): {}",
+        less_energy(*.discrete_gradient), percent = 100.0 * .made_j / .scale_j
     )]
     EnergyMade {
         /// Time in s.
@@ -153,6 +166,9 @@ pub enum Warning {
         made_j: f64,
         /// Largest energy or work so far in J.
         scale_j: f64,
+        /// Whether the method of all cables is the discrete gradient.
+        #[serde(default)]
+        discrete_gradient: bool,
     },
     /// Integration takes energy.
     #[error(
@@ -231,12 +247,18 @@ pub enum Warning {
     },
     /// Cable and body start at different velocities.
     #[error(
-        "attachment {attachment:?}: cable and body start with velocities {difference_m_s:.3e} m/s apart, which gives a shock: give both the \
+        "attachment {attachment:?}: cable and body start with velocities {difference_m_s:.3e} m/s apart, a shock of {force_n:.1e} N: give both the \
          same `velocity` there"
     )]
     VelocityJump {
         /// Name of the attachment.
         attachment: String,
+        /// Name of its cable.
+        #[serde(default)]
+        cable: String,
+        /// Force in N of the wave that the difference makes in the cable.
+        #[serde(default)]
+        force_n: f64,
         /// Difference of the velocities in m/s.
         difference_m_s: f64,
     },
@@ -344,18 +366,4 @@ fn compressed(rule: &str, compression: Option<f64>) -> String {
         )
     };
     compression.map_or(String::new(), advice)
-}
-
-/// Serialises warnings with their texts.
-///
-/// # Errors
-/// As the serialiser.
-pub(crate) fn with_texts<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct WithText<'a> {
-        text: String,
-        #[serde(flatten)]
-        warning: &'a Warning,
-    }
-    serializer.collect_seq(warnings.iter().map(|warning| WithText { text: warning.to_string(), warning }))
 }

@@ -1,0 +1,149 @@
+//! How much depends on each warning of a cable, and what it is a sign of.
+
+use super::Warning;
+use super::level::{Judged, Level, Sign};
+
+impl Warning {
+    /// Returns how much depends on it.
+    pub fn level(&self) -> Level {
+        match self {
+            Warning::UntouchedObstacles { .. }
+            | Warning::HighRestitution { .. }
+            | Warning::IdleTorsion { .. }
+            | Warning::Stubby { .. }
+            | Warning::Thick { .. }
+            | Warning::LightMaterial { .. }
+            | Warning::FastWaves { .. }
+            | Warning::SoftMaterial { .. } => Level::Setup,
+            Warning::LargeStrain { .. }
+            | Warning::EnergyMade { .. }
+            | Warning::FastReel { .. }
+            | Warning::UnseenLoad { .. }
+            | Warning::RoundedEnds { .. }
+            | Warning::PassedThrough { .. }
+            | Warning::FrictionLags { .. }
+            | Warning::TwistSlips { .. } => Level::Wrong,
+            Warning::CoarseMesh { .. }
+            | Warning::CoarseMotion { .. }
+            | Warning::CoarseElement { .. }
+            | Warning::LongSteps { .. }
+            | Warning::EnergyLost { .. }
+            | Warning::NotResolved { .. }
+            | Warning::Sinks { .. }
+            | Warning::CoarseContact { .. }
+            | Warning::CoarseTwist { .. } => Level::Coarse,
+        }
+    }
+
+    /// Returns the name of the cable that it is about.
+    pub fn cable(&self) -> &str {
+        match self {
+            Warning::CoarseMesh { cable, .. }
+            | Warning::UntouchedObstacles { cable, .. }
+            | Warning::CoarseMotion { cable, .. }
+            | Warning::CoarseElement { cable, .. }
+            | Warning::LongSteps { cable, .. }
+            | Warning::LargeStrain { cable, .. }
+            | Warning::EnergyMade { cable, .. }
+            | Warning::EnergyLost { cable, .. }
+            | Warning::FastReel { cable, .. }
+            | Warning::UnseenLoad { cable, .. }
+            | Warning::RoundedEnds { cable, .. }
+            | Warning::PassedThrough { cable, .. }
+            | Warning::NotResolved { cable, .. }
+            | Warning::Sinks { cable, .. }
+            | Warning::CoarseContact { cable, .. }
+            | Warning::HighRestitution { cable, .. }
+            | Warning::FrictionLags { cable, .. }
+            | Warning::IdleTorsion { cable, .. }
+            | Warning::CoarseTwist { cable, .. }
+            | Warning::TwistSlips { cable, .. }
+            | Warning::Stubby { cable, .. }
+            | Warning::Thick { cable, .. }
+            | Warning::LightMaterial { cable, .. }
+            | Warning::FastWaves { cable, .. }
+            | Warning::SoftMaterial { cable, .. } => cable,
+        }
+    }
+}
+
+impl Judged for Warning {
+    fn level(&self) -> Level {
+        self.level()
+    }
+
+    fn sign(&self) -> Option<Sign> {
+        Some(match self {
+            Warning::Stubby { .. }
+            | Warning::Thick { .. }
+            | Warning::LightMaterial { .. }
+            | Warning::FastWaves { .. }
+            | Warning::SoftMaterial { .. } => Sign::Sizes,
+            Warning::LargeStrain { .. } => Sign::Strain,
+            Warning::EnergyMade { .. } => Sign::EnergyMade,
+            Warning::EnergyLost { .. } => Sign::EnergyLost,
+            Warning::PassedThrough { .. } => Sign::Crossing,
+            Warning::LongSteps { .. } | Warning::NotResolved { .. } => Sign::Steps,
+            Warning::CoarseMesh { .. }
+            | Warning::CoarseMotion { .. }
+            | Warning::CoarseElement { .. }
+            | Warning::CoarseContact { .. }
+            | Warning::CoarseTwist { .. } => Sign::Mesh,
+            Warning::Sinks { .. } => Sign::Depth,
+            Warning::TwistSlips { .. } => Sign::Twist,
+            Warning::FrictionLags { .. } => Sign::Friction,
+            Warning::UntouchedObstacles { .. }
+            | Warning::HighRestitution { .. }
+            | Warning::IdleTorsion { .. }
+            | Warning::FastReel { .. }
+            | Warning::UnseenLoad { .. }
+            | Warning::RoundedEnds { .. } => return None,
+        })
+    }
+
+    fn same_kind(&self, other: &Self) -> bool {
+        core::mem::discriminant(self) == core::mem::discriminant(other)
+    }
+
+    fn time(&self) -> Option<f64> {
+        match self {
+            Warning::LongSteps { time_s, .. }
+            | Warning::LargeStrain { time_s, .. }
+            | Warning::EnergyLost { time_s, .. }
+            | Warning::FastReel { time_s, .. }
+            | Warning::UnseenLoad { time_s, .. }
+            | Warning::RoundedEnds { time_s, .. } => Some(*time_s),
+            // energy is made until its time, not from then on
+            _ => None,
+        }
+    }
+
+    fn severity(&self) -> f64 {
+        match self {
+            Warning::CoarseMesh { error_m, .. } | Warning::LongSteps { error_m, .. } => *error_m,
+            Warning::CoarseMotion { error_m, displacement_m, .. } => error_m / displacement_m,
+            Warning::CoarseElement { turn_rad, .. } | Warning::CoarseContact { turn_rad, .. } => *turn_rad,
+            Warning::LargeStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
+            Warning::EnergyMade { made_j: energy, scale_j, .. }
+            | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
+            Warning::FastReel { ratio, .. } | Warning::CoarseTwist { ratio, .. } => *ratio,
+            Warning::UnseenLoad { reached, .. } => *reached,
+            Warning::RoundedEnds { noise_n, .. } => *noise_n,
+            Warning::Sinks { share, .. } => *share,
+            Warning::PassedThrough { steps, .. }
+            | Warning::NotResolved { steps, .. }
+            | Warning::FrictionLags { steps, .. } => *steps as f64,
+            Warning::TwistSlips { slips, .. } => *slips as f64,
+            // the more beyond the sizes of cables the smaller the number, or there is none
+            Warning::Stubby { ratio, .. } => -ratio,
+            Warning::LightMaterial { wave_speed_m_s, .. } | Warning::FastWaves { wave_speed_m_s, .. } => {
+                *wave_speed_m_s
+            }
+            Warning::SoftMaterial { youngs_modulus_pa, .. } => -youngs_modulus_pa,
+            Warning::Thick { diameter_m, .. } => *diameter_m,
+            Warning::HighRestitution { restitution, .. } => *restitution,
+            Warning::UntouchedObstacles { count, .. } => *count as f64,
+            Warning::IdleTorsion { .. } => 0.0,
+        }
+    }
+}

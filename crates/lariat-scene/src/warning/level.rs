@@ -1,0 +1,141 @@
+//! How much depends on each warning about a scene or a run, and what it is a sign of.
+
+use super::Warning;
+use lariat_ancf::Level;
+use lariat_ancf::warning::fold::{Judged, Sign};
+
+impl Warning {
+    /// Returns how much depends on it.
+    pub fn level(&self) -> Level {
+        match self {
+            Warning::Cable(warning) => warning.level(),
+            Warning::FallsFreely { .. }
+            | Warning::StartsInside { .. }
+            | Warning::PassesThrough { .. }
+            | Warning::UnfinishedRamp { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::RankDeficient { .. }
+            | Warning::LeftAsDrawn { .. }
+            | Warning::VelocityJump { .. }
+            | Warning::DrawnCorner { .. }
+            | Warning::ThickContact { .. }
+            | Warning::SlowStretch { .. }
+            | Warning::LargeLoad { .. }
+            | Warning::ManyTurns { .. } => Level::Setup,
+            Warning::OpenGap { .. }
+            | Warning::Unsettled { .. }
+            | Warning::SheaveStopped { .. }
+            | Warning::WheelTurned { .. }
+            | Warning::EnergyMade { .. }
+            | Warning::NoConvergence { .. }
+            | Warning::ErrorNotReached { .. }
+            | Warning::UnstableEquilibrium { .. } => Level::Wrong,
+            Warning::EnergyLost { .. } => Level::Coarse,
+        }
+    }
+
+    /// Returns the name of the cable that it is about, if it is about one.
+    pub fn cable(&self) -> Option<&str> {
+        match self {
+            Warning::Cable(warning) => Some(warning.cable()),
+            Warning::StartsInside { cable, .. }
+            | Warning::PassesThrough { cable, .. }
+            | Warning::OpenGap { cable, .. }
+            | Warning::Unsettled { cable, .. }
+            | Warning::MomentAlong { cable, .. }
+            | Warning::RankDeficient { cable, .. }
+            | Warning::UnstableEquilibrium { cable, .. }
+            | Warning::VelocityJump { cable, .. }
+            | Warning::DrawnCorner { cable, .. }
+            | Warning::ThickContact { cable, .. }
+            | Warning::SlowStretch { cable, .. }
+            | Warning::LargeLoad { cable, .. } => Some(cable),
+            Warning::FallsFreely { .. }
+            | Warning::SheaveStopped { .. }
+            | Warning::WheelTurned { .. }
+            | Warning::UnfinishedRamp { .. }
+            | Warning::EnergyMade { .. }
+            | Warning::EnergyLost { .. }
+            | Warning::NoConvergence { .. }
+            | Warning::ErrorNotReached { .. }
+            | Warning::LeftAsDrawn { .. }
+            | Warning::ManyTurns { .. } => None,
+        }
+    }
+}
+
+impl Judged for Warning {
+    fn level(&self) -> Level {
+        self.level()
+    }
+
+    fn sign(&self) -> Option<Sign> {
+        Some(match self {
+            Warning::Cable(warning) => return warning.sign(),
+            Warning::StartsInside { .. } => Sign::Inside,
+            Warning::OpenGap { .. } => Sign::Gap,
+            Warning::VelocityJump { .. } => Sign::Shock,
+            Warning::DrawnCorner { .. } => Sign::Corner,
+            Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
+            Warning::EnergyMade { .. } => Sign::EnergyMade,
+            Warning::EnergyLost { .. } => Sign::EnergyLost,
+            Warning::FallsFreely { .. }
+            | Warning::PassesThrough { .. }
+            | Warning::Unsettled { .. }
+            | Warning::SheaveStopped { .. }
+            | Warning::WheelTurned { .. }
+            | Warning::UnfinishedRamp { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::NoConvergence { .. }
+            | Warning::ErrorNotReached { .. }
+            | Warning::RankDeficient { .. }
+            | Warning::UnstableEquilibrium { .. }
+            | Warning::LeftAsDrawn { .. }
+            | Warning::SlowStretch { .. }
+            | Warning::ManyTurns { .. } => return None,
+        })
+    }
+
+    fn same_kind(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Warning::Cable(a), Warning::Cable(b)) => a.same_kind(b),
+            _ => core::mem::discriminant(self) == core::mem::discriminant(other),
+        }
+    }
+
+    fn time(&self) -> Option<f64> {
+        match self {
+            Warning::Cable(warning) => warning.time(),
+            Warning::EnergyLost { time_s, .. } => Some(*time_s),
+            // energy is made until its time, and a gap is largest then: consequences may precede
+            _ => None,
+        }
+    }
+
+    fn severity(&self) -> f64 {
+        match self {
+            Warning::Cable(warning) => warning.severity(),
+            Warning::FallsFreely { fall_m, .. } => *fall_m,
+            Warning::StartsInside { depth_m, .. } => *depth_m,
+            Warning::PassesThrough { time_s, .. } | Warning::SheaveStopped { time_s, .. } => -time_s,
+            Warning::OpenGap { gap_m, .. } => *gap_m,
+            Warning::Unsettled { force, .. } => *force,
+            Warning::WheelTurned { error_m, part_m, .. } => error_m / part_m,
+            Warning::UnfinishedRamp { ramp_s, .. } => *ramp_s,
+            Warning::MomentAlong { part_nm, .. } => part_nm.abs(),
+            Warning::EnergyMade { made_j: energy, scale_j, .. }
+            | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
+            Warning::UnstableEquilibrium { compression, .. } => compression.unwrap_or(0.0),
+            Warning::VelocityJump { force_n, .. } => *force_n,
+            Warning::DrawnCorner { speed_m_s, .. } => *speed_m_s,
+            Warning::ThickContact { radius_m, .. } => *radius_m,
+            Warning::SlowStretch { axial_s, .. } => *axial_s,
+            Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
+            Warning::ManyTurns { angle_rad, .. } => *angle_rad,
+            Warning::NoConvergence { .. }
+            | Warning::ErrorNotReached { .. }
+            | Warning::RankDeficient { .. }
+            | Warning::LeftAsDrawn { .. } => 0.0,
+        }
+    }
+}
