@@ -19,8 +19,9 @@
 //! # Validity
 //!
 //! Exact for the discretised cable, with the Gauss points of the effect, forces per length of the
-//! user's own among them. Stock is neither dragged nor loaded. Added mass is refused: it acts in all directions alike, and material that comes out
-//! along itself would have to set fluid in motion.
+//! user's own among them. Stock is neither dragged nor loaded. Added mass is refused: it acts in
+//! all directions alike, and material that comes out along itself would have to set fluid in
+//! motion.
 //!
 //! # References
 //!

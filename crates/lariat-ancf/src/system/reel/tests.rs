@@ -48,8 +48,8 @@ fn any(seed: usize) -> Vec<f64> {
     (0..30).map(|i| along(i) + 0.15 * some(31 * seed + i)).collect()
 }
 
-/// Over a step of the discrete gradient, whatever it is, the strain energy of a cable whose lengths change at both ends changes by the work on nodes
-/// and lengths.
+/// Over a step of the discrete gradient, whatever it is, the strain energy of a cable whose lengths
+/// change at both ends changes by the work on nodes and lengths.
 ///
 /// *Source.* `D U = f . D q + Y D l`: conservation of energy.
 #[test]
@@ -93,7 +93,8 @@ fn work_on_nodes_and_lengths_is_the_change_of_strain_energy() {
     }
 }
 
-/// The force of strains on a length is the derivative of their energy by it, at coordinates that stay.
+/// The force of strains on a length is the derivative of their energy by it, at coordinates that
+/// stay.
 ///
 /// *Source.* Central differences.
 #[test]
@@ -122,9 +123,11 @@ fn force_of_strains_on_a_length_is_the_derivative_of_their_energy() {
     }
 }
 
-/// The tension that goes with a pull is that of the stretch whose tension times stretch less energy per length is the pull.
+/// The tension that goes with a pull is that of the stretch whose tension times stretch less energy
+/// per length is the pull.
 ///
-/// *Source.* The force that strains exert on the length of a straight element of uniform stretch, and the tension that is read in it.
+/// *Source.* The force that strains exert on the length of a straight element of uniform stretch,
+/// and the tension that is read in it.
 #[test]
 fn tension_of_a_pull_is_that_of_the_law() {
     for (kind, effects) in effects().into_iter().enumerate() {
