@@ -17,12 +17,12 @@
 //! # Validity
 //!
 //! Smooth functions that change little over a third of an element. Arc length is that of the
-//! material, whatever reels do: what a reel at the start pays out has a negative one. Every implicit method steps them
-//! to its own order; explicit methods keep their order if the force does not depend on velocity
-//! (see [`explicit`](crate::integrate::explicit)), and do not know its stiffness:
-//! [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's
-//! alone. Statics follow the motion to rest, because no potential is known. The control of spurious
-//! energy is off, because the work of an unknown force cannot be told from it.
+//! material, whatever reels do: what a reel at the start pays out has a negative one. Every
+//! implicit method steps them to its own order; explicit methods keep their order if the force does
+//! not depend on velocity (see [`explicit`](crate::integrate::explicit)), and do not know its
+//! stiffness: [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the
+//! cable's alone. Statics follow the motion to rest, because no potential is known. The control of
+//! spurious energy is off, because the work of an unknown force cannot be told from it.
 //!
 //! *Snapshots.* A [`Snapshot`](crate::Snapshot) holds the state and the work that the force has
 //! done; the function stays with the cable. A *serialised* cable cannot hold a function: read back,
