@@ -244,7 +244,7 @@ impl CableBuilder {
 
     /// Adds a force per length of your own.
     pub fn force_density(mut self, force: Arc<dyn ForceDensity>) -> Self {
-        self.force_densities.attach(force);
+        self.force_densities.attach(force, 0.0);
         self
     }
 

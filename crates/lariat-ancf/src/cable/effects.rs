@@ -90,11 +90,10 @@ impl Cable {
     /// ```
     ///
     /// # Errors
-    /// [`Error::StepFailed`] if the mass matrix cannot be factored, [`Error::NotWithReel`] for a
-    /// cable with a reel.
+    /// [`Error::StepFailed`] if the mass matrix cannot be factored.
     pub fn add_force_density(&mut self, force: Arc<dyn ForceDensity>) -> Result<(), Error> {
         let mut model = self.model.clone();
-        model.force_densities.attach(force);
+        model.force_densities.attach(force, self.snapshot.passed_at_start());
         let as_before = self.model.force_densities.missing() > 0;
         model.check_effects().map_err(|e| e.of_cable(self.name()))?;
         self.rebuild(model)?;

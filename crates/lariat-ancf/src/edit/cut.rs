@@ -55,7 +55,7 @@ impl Cable {
         [&mut head, &mut tail].into_iter().for_each(|part| part.load_origins.clear());
         [head.effects, tail.effects] = self.model.effects.cut(Cut { node, elements: &self.model.elements });
         [head.reels, tail.reels] = self.model.reels.cut(self.number(node));
-        tail.force_densities = self.model.force_densities.behind(s);
+        tail.force_densities = self.model.force_densities.behind(s - self.snapshot.passed_at_start());
         tail.potentials = head.potentials.cut(s);
         let state = &self.snapshot.state;
         let twists = self.segments();

@@ -226,6 +226,10 @@ impl DiscreteGradientForce for Nothing {
     fn add_rest_strain<T: Real, L: Load<T>>(&self, _: T, _: &L, _: &mut T) {
         match *self {}
     }
+    #[inline(always)]
+    fn add_rest_energy<T: Real, L: Load<T>>(&self, _: T, _: &L, _: &mut T) {
+        match *self {}
+    }
 }
 
 impl ElementForce for Nothing {

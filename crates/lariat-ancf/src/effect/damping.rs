@@ -271,6 +271,9 @@ impl DiscreteGradientForce for DampingTable {
 
     #[inline(always)]
     fn add_rest_strain<T: Real, L: Load<T>>(&self, _: T, _: &L, _: &mut T) {}
+
+    #[inline(always)]
+    fn add_rest_energy<T: Real, L: Load<T>>(&self, _: T, _: &L, _: &mut T) {}
 }
 
 impl DampingTable {

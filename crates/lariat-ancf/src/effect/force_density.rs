@@ -16,12 +16,13 @@
 //!
 //! # Validity
 //!
-//! Smooth functions that change little over a third of an element. Every implicit method steps them
-//! to its own order; explicit methods keep their order if the force does not depend on velocity
-//! (see [`explicit`](crate::integrate::explicit)), and do not know its stiffness:
-//! [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the cable's
-//! alone. Statics follow the motion to rest, because no potential is known. The control of spurious
-//! energy is off, because the work of an unknown force cannot be told from it.
+//! Smooth functions that change little over a third of an element. Arc length is that of the
+//! material, whatever reels do: what a reel at the start pays out has a negative one. Every
+//! implicit method steps them to its own order; explicit methods keep their order if the force does
+//! not depend on velocity (see [`explicit`](crate::integrate::explicit)), and do not know its
+//! stiffness: [`Cable::frequency_bound`](crate::coupling::Linearisation::frequency_bound) is the
+//! cable's alone. Statics follow the motion to rest, because no potential is known. The control of
+//! spurious energy is off, because the work of an unknown force cannot be told from it.
 //!
 //! *Snapshots.* A [`Snapshot`](crate::Snapshot) holds the state and the work that the force has
 //! done; the function stays with the cable. A *serialised* cable cannot hold a function: read back,
@@ -36,6 +37,7 @@ use super::acts::{ForceInput, PointForce};
 use crate::dual::{Dual, constant};
 use crate::element::assembly::add_tangent;
 use crate::element::shape;
+use crate::element::side::Side;
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
 use crate::scales::effect::{DIFFERENCE, POINTS};
@@ -74,7 +76,8 @@ pub struct CablePoint {
     /// Time in s.
     pub time: f64,
     /// Arc length of the unstretched cable in m, from the start that the cable had when the force
-    /// was attached.
+    /// was attached: a particle keeps its own, and what a reel at the start pays out later has a
+    /// negative one.
     pub arc_length: f64,
     /// Position in m.
     pub position: Vector3<f64>,
@@ -108,9 +111,10 @@ pub(crate) struct ForceDensities {
 }
 
 impl ForceDensities {
-    /// Attaches a function, in place of the first one that is missing.
-    pub fn attach(&mut self, force: Arc<dyn ForceDensity>) {
-        let begin = if self.missing.is_empty() { 0.0 } else { self.missing.remove(0) };
+    /// Attaches a function, in place of the first one that is missing; `passed` m came through a
+    /// reel at the start so far.
+    pub fn attach(&mut self, force: Arc<dyn ForceDensity>, passed: f64) {
+        let begin = if self.missing.is_empty() { passed } else { self.missing.remove(0) };
         self.attached.push(Attached { force, begin });
     }
 
@@ -147,9 +151,10 @@ impl ForceDensities {
         part
     }
 
-    /// Tables for the evaluation, if there is a function.
-    pub fn at_points(&self, elements: &[Element]) -> Option<ForceDensityTable> {
-        let mut begin = 0.0;
+    /// Tables for the evaluation, if there is a function; `at_reel` says whether the first element
+    /// is at the eye of a reel.
+    pub fn at_points(&self, elements: &[Element], at_reel: bool) -> Option<ForceDensityTable> {
+        let mut begin = if at_reel { -elements[0].length } else { 0.0 };
         let numbers = elements.iter().map(|element| {
             begin += element.length;
             (begin - element.length, element.length)
@@ -157,6 +162,7 @@ impl ForceDensities {
         (!self.is_empty()).then(|| ForceDensityTable {
             attached: self.attached.clone(),
             elements: numbers.collect(),
+            origin: 0.0,
             points: gauss_legendre(POINTS),
             held: None,
             not_finite: None,
@@ -191,8 +197,11 @@ impl<'de> Deserialize<'de> for ForceDensities {
 #[derive(Clone, Debug)]
 pub(crate) struct ForceDensityTable {
     attached: Vec<Attached>,
-    /// Arc length of the begin, and length, by element, in m.
+    /// Arc length of the begin, and length, by element, in m: from the start, or where a reel is
+    /// there from the second node, whose material stays.
     elements: Vec<(f64, f64)>,
+    /// Arc length in m of the second node along its material, where a reel is at the start.
+    origin: f64,
     /// Gauss points and weights.
     points: Vec<(f64, f64)>,
     /// The time in s at which all forces are held, if they are.
@@ -223,6 +232,28 @@ impl ForceDensityTable {
         self.not_finite
     }
 
+    /// Sets the length of an element at the eye of a reel in m.
+    pub fn set_length(&mut self, side: Side, length: f64) {
+        let element = side.element(self.elements.len());
+        let (begin, own) = &mut self.elements[element];
+        *own = length;
+        if side == Side::Start {
+            *begin = -length;
+        }
+    }
+
+    /// Returns the arc length in m of the second node along its material, where a reel is at the
+    /// start.
+    pub fn origin(&self) -> f64 {
+        self.origin
+    }
+
+    /// Sets the arc length in m of the second node along its material, where a reel is at the
+    /// start.
+    pub fn set_origin(&mut self, origin: f64) {
+        self.origin = origin;
+    }
+
     fn point(&self, element: usize, k: usize) -> Point {
         let ((begin, length), (xi, weight)) = (self.elements[element], self.points[k]);
         Point { begin, xi, length, shape: shape::position(xi, length), weight: weight * length }
@@ -236,7 +267,7 @@ impl ForceDensityTable {
         position: Vector3<f64>,
         velocity: Vector3<f64>,
     ) -> CablePoint {
-        let arc_length = attached.begin + (point.begin + point.xi * point.length);
+        let arc_length = attached.begin + self.origin + (point.begin + point.xi * point.length);
         CablePoint { time: self.held.unwrap_or(time), arc_length, position, velocity }
     }
 

@@ -282,6 +282,15 @@ impl DiscreteGradientForce for RestTable {
             *strain = *strain + from.load(&self.excess);
         }
     }
+
+    #[inline(always)]
+    fn add_rest_energy<T: Real, L: Load<T>>(&self, square: T, from: &L, energy: &mut T) {
+        if !self.excess.is_empty() {
+            // ((square - 1 - x)^2 - (square - 1)^2)/8
+            let excess = from.load(&self.excess);
+            *energy = *energy + excess * (excess * 0.5 + 1.0 - square) * 0.25;
+        }
+    }
 }
 
 impl ElementForce for RestTable {

@@ -101,6 +101,11 @@ macro_rules! generate {
             fn add_rest_strain<T: Real, L: Load<T>>(&self, square: T, from: &L, strain: &mut T) {
                 $(if let Some(table) = &self.$field { table.add_rest_strain(square, from, strain); })*
             }
+
+            #[inline(always)]
+            fn add_rest_energy<T: Real, L: Load<T>>(&self, square: T, from: &L, energy: &mut T) {
+                $(if let Some(table) = &self.$field { table.add_rest_energy(square, from, energy); })*
+            }
         }
 
         impl ElementTables {

@@ -151,6 +151,10 @@ pub(crate) trait DiscreteGradientForce {
     /// Adds by how much the mean axial stress over EA/2 is less than that of the Green law,
     /// `square - 1` of the squared stretch: f_0^2 - 1 of a stretch f_0 without stress.
     fn add_rest_strain<T: Real, L: Load<T>>(&self, square: T, from: &L, strain: &mut T);
+
+    /// Adds by how much the axial energy per length over EA of a uniform squared stretch is more
+    /// than that of the Green law, `(square - 1)^2/8`.
+    fn add_rest_energy<T: Real, L: Load<T>>(&self, square: T, from: &L, energy: &mut T);
 }
 
 impl<E: GramForce> GramForce for Option<&E> {

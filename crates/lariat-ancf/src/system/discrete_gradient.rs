@@ -147,7 +147,7 @@ impl Equations<'_> {
         let (system, diagnostics) = (&mut *self.system, &mut *self.diagnostics);
         let (level, forces) = (system.level, &mut system.forces);
         let count = forces.elements.count() as u64;
-        let at_points = forces.at_points.any() || forces.densities.is_some();
+        let at_points = forces.act_at_points();
         let lines_feed = !system.feeds.is_empty() && self.model.effects.line_loads.is_some();
         if at_points || lines_feed || !self.model.loads.is_empty() {
             if matrix {

@@ -81,7 +81,7 @@ impl Equations<'_> {
         let forces = &self.system.forces;
         let dissipates = forces.in_element.as_ref().is_some_and(|effects| effects.dissipates());
         let line_loads = !self.system.feeds.is_empty() && self.model.effects.line_loads.is_some();
-        let effects = dissipates || forces.at_points.any() || forces.densities.is_some() || line_loads;
+        let effects = dissipates || forces.act_at_points() || line_loads;
         if !effects && self.model.loads.is_empty() {
             return;
         }

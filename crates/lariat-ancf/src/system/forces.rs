@@ -7,6 +7,7 @@ use crate::effect::acts::{ForceInput, PointForce, SampledPoint};
 use crate::effect::force_density::ForceDensityTable;
 use crate::effect::tables::{ElementTables, PointTables};
 use crate::element::kernel::GramState;
+use crate::element::side::Side;
 use crate::model::Model;
 use fearless_simd::Level;
 use nalgebra::Vector3;
@@ -29,7 +30,7 @@ impl Forces {
             elements: Elements::new(model),
             in_element: model.in_element(),
             at_points: model.effects.at_points(&model.target()),
-            densities: model.force_densities.at_points(&model.elements),
+            densities: densities(model),
         }
     }
 
@@ -90,6 +91,11 @@ impl Forces {
         self.in_element.as_ref().map_or_else(Vector3::zeros, |effects| effects.curvature(at))
     }
 
+    /// Returns whether anything acts at Gauss points.
+    pub fn act_at_points(&self) -> bool {
+        self.at_points.any() || self.densities.is_some()
+    }
+
     /// Returns whether a force can move a cable at rest although it has no potential.
     pub fn drive(&self) -> bool {
         self.at_points.drive() || self.densities.is_some()
@@ -106,7 +112,11 @@ impl Forces {
     /// Ends what [`hold`](Self::hold) began.
     pub fn release(&mut self, model: &Model) {
         self.at_points = model.effects.at_points(&model.target());
-        self.densities = model.force_densities.at_points(&model.elements);
+        let origin = self.densities.as_ref().map(ForceDensityTable::origin);
+        self.densities = densities(model);
+        if let (Some(densities), Some(origin)) = (&mut self.densities, origin) {
+            densities.set_origin(origin);
+        }
     }
 
     /// The quantity of the last evaluation that was not finite and its node, if a function of the
@@ -114,4 +124,9 @@ impl Forces {
     pub fn not_finite(&self) -> Option<(&'static str, usize)> {
         self.densities.as_ref()?.not_finite().map(|element| ("force density", element))
     }
+}
+
+/// Returns the table of the forces per length of a cable.
+fn densities(model: &Model) -> Option<ForceDensityTable> {
+    model.force_densities.at_points(&model.elements, model.reels.get(Side::Start).is_some())
 }

@@ -3,6 +3,7 @@
 mod both_ends;
 mod common;
 mod drums;
+mod effects;
 mod energy;
 mod fluid;
 mod laws;

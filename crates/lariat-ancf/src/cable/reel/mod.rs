@@ -20,10 +20,11 @@
 //! eye is held by a support, or by an attachment to a body. On a body that moves freely the stock
 //! rides with it, as a point mass at the eye beside the body's own mass; [`Reel::stock`] says how
 //! much there is, and energy and momentum of the cable include it. That takes the discrete
-//! gradient. Implicit methods only. Gravity, internal damping, a uniform rest stretch, drag,
-//! buoyancy and line loads on all of the cable act on the element at the eye, stock at most weighs
-//! (less buoyancy); other effects are refused ([`Error::NotWithReel`]). Contact acts on all other
-//! elements: the one at the eye goes into the device, and touches nothing.
+//! gradient. Implicit methods only. Gravity, axial laws, internal damping, a uniform rest stretch,
+//! drag, buoyancy, forces per length of your own, and line loads on all of the cable act on the
+//! element at the eye, stock at most weighs (less buoyancy); other effects are refused
+//! ([`Error::NotWithReel`]). Contact acts on all other elements: the one at the eye goes into the
+//! device, and touches nothing.
 //!
 //! # Alternatives considered
 //!
@@ -170,6 +171,9 @@ impl Cable {
         let mut model = self.model.clone();
         let e = side.element(model.elements.len());
         model.reels.remove(side, self.number(e), model.elements[e]);
+        if side == Side::Start {
+            model.force_densities = model.force_densities.behind(-self.snapshot.passed_at_start());
+        }
         if model.reels.is_empty() {
             model.reels = Reels::default();
         }
@@ -206,6 +210,11 @@ impl Cable {
             feed.source = if over_sheave { Source::Cable } else { both.map_or(Source::Outside, Source::Stock) };
         }
         self.system.set_feeds(&self.model, self.snapshot.state.time);
+        let winding =
+            self.snapshot.windings[Side::Start as usize].filter(|_| self.model.reels.get(Side::Start).is_some());
+        if let (Some(winding), Some(densities)) = (winding, &mut self.system.forces.densities) {
+            densities.set_origin(winding.extent[0] - winding.passed);
+        }
     }
 
     /// Sets the mesh to that of the state of reels in a snapshot with this number of nodes.
@@ -297,9 +306,7 @@ impl Model {
                 self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),
             ),
             ("a rest shape that is curved or in pieces", self.effects.rest_shape.as_ref().is_some_and(curved)),
-            ("an axial law", self.effects.axial_law.is_some()),
             ("torsion", self.effects.torsion.is_some()),
-            ("forces per length of your own", !self.force_densities.is_empty()),
         ];
         match refused.iter().find(|(_, is_there)| *is_there) {
             None => Ok(()),

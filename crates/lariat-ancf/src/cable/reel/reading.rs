@@ -56,12 +56,10 @@ impl Cable {
         let excess = winding.motor.map_or(0.0, |motor| motor.excess);
         let force = winding.pull.map_or_else(present, |pull| pull - excess);
         let rate = winding.extent[1];
-        // T f - u0 = EA (eps + 3/2 eps^2) with the strain eps at the eye
         let stiffness = element.section.axial_stiffness;
         let square: f64 = (9..12).map(|i| q[i] * q[i]).sum();
         let eye = force + 0.5 * inertia * rate * rate * (square - 1.0);
-        let strain = ((1.0 + 6.0 * eye / stiffness).max(0.0).sqrt() - 1.0) / 3.0;
-        let tension = stiffness * strain * (1.0 + 2.0 * strain).max(0.0).sqrt();
+        let tension = stiffness * self.system.tension_of_pull(side.element(self.elements().len()), eye / stiffness);
         Some(ReelReading {
             length_out: self.length(),
             rate,

@@ -260,6 +260,11 @@ impl DiscreteGradientForce for LawTable {
         let law = self.spline.secant(square, square).value * 4.0;
         *strain = *strain + (square - 1.0 - law);
     }
+
+    #[inline(always)]
+    fn add_rest_energy<T: Real, L: Load<T>>(&self, square: T, _: &L, energy: &mut T) {
+        *energy = *energy + (self.spline.energy(square) - (square - 1.0) * (square - 1.0) * 0.125);
+    }
 }
 
 impl ElementForce for LawTable {

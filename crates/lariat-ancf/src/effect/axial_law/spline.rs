@@ -91,13 +91,15 @@ impl Spline {
     }
 
     /// Returns the energy per EA and length at a squared stretch.
-    pub fn energy(&self, x: f64) -> f64 {
+    #[inline(always)]
+    pub fn energy<T: Real>(&self, x: T) -> T {
         let e = stretch(x)[0] - 1.0;
-        let of = |h: &Hinge| {
-            let p = (e - h.at).max(0.0);
-            p * p * (0.5 * h.linear + h.square * p * (1.0 / 3.0))
-        };
-        0.5 * self.slope * e * e + self.hinges.iter().map(of).sum::<f64>()
+        let mut of_hinges = x.splat(0.0);
+        for hinge in &self.hinges {
+            let p = (e - hinge.at).at_least(0.0);
+            of_hinges = of_hinges + p * p * (p * hinge.square * (1.0 / 3.0) + 0.5 * hinge.linear);
+        }
+        e * (0.5 * self.slope) * e + of_hinges
     }
 
     /// Returns the secant of the energy over a step of the squared stretch from `x0` to `x1`; where

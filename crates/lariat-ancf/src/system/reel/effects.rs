@@ -18,9 +18,10 @@
 //!
 //! # Validity
 //!
-//! Exact for the discretised cable, with the Gauss points of the effect. Stock is neither dragged
-//! nor loaded. Added mass is refused: it acts in all directions alike, and material that comes out
-//! along itself would have to set fluid in motion.
+//! Exact for the discretised cable, with the Gauss points of the effect, forces per length of the
+//! user's own among them. Stock is neither dragged nor loaded. Added mass is refused: it acts in
+//! all directions alike, and material that comes out along itself would have to set fluid in
+//! motion.
 //!
 //! # References
 //!
@@ -29,7 +30,7 @@
 
 use super::{FeedElement, Feeds};
 use crate::dual::{Dual, constant};
-use crate::effect::acts::ForceInput;
+use crate::effect::acts::{ForceInput, PointForce};
 use crate::element::shape;
 use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
@@ -130,7 +131,7 @@ impl System {
         time: f64,
         [q, v]: [&[f64; 12]; 2],
     ) -> f64 {
-        if !self.forces.at_points.any() {
+        if !self.forces.act_at_points() {
             return 0.0;
         }
         let extent = feed.at(time);
@@ -159,6 +160,9 @@ impl System {
         let mut force = [constant(0.0); 12];
         let q = turned(&|i| q[i]).map(constant);
         self.forces.at_points.add_dual(feed.element(model), time, &q, &v, &mut force);
+        if let Some(densities) = &self.forces.densities {
+            densities.add_dual(feed.element(model), time, &q, &v, &mut force);
+        }
         let [value, slope] = [force.map(|f| f.value), force.map(|f| f.slope)].map(|x| feed.side.gather(&x));
         core::array::from_fn(|i| Dual { value: value[i], slope: slope[i] })
     }

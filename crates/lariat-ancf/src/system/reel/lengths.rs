@@ -47,6 +47,9 @@ impl System {
         elements.flexural[e] = 2.0 * element.section.bending_stiffness * inverse;
         elements.set_mass(e, model.inertia(element), mean);
         forces.at_points.set_length(e, mean);
+        if let Some(densities) = &mut forces.densities {
+            densities.set_length(feeds.list[k].side, mean);
+        }
         let length = |e: usize| {
             let feed = feeds.list.iter().find(|feed| feed.element(model) == e);
             feed.map_or(model.elements[e].length, |feed| feed.weighed)

@@ -25,8 +25,9 @@
 //! # Validity
 //!
 //! The row is exact, and so is the column for the motion above, else to first order of the step;
-//! but for drag, whose coefficients in the step are those of the iterate before, and for its
-//! dependence on coordinates and length.
+//! but for drag, whose coefficients in the step are those of the iterate before, and for what
+//! forces per length depend on by coordinates, length, and the skew part of their derivative by
+//! velocity.
 
 use super::effects::drift;
 use super::feeds::control;
@@ -36,7 +37,7 @@ use crate::Real;
 use crate::dual::{Dual, constant};
 use crate::effect::acts::Single;
 use crate::element::gram::Control;
-use crate::element::kernel::{ElementState, Stiffness};
+use crate::element::kernel::{ElementState, Load, Stiffness};
 use crate::element::step::ElementStep;
 use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
@@ -80,7 +81,7 @@ impl Equations<'_> {
         let before = feed.side.gather(&b.change_before);
         let strains = system.strains_over_step(model, &feed, (&motion, step), (&before, b.kept, b.leg));
         let points = system.points_by_acceleration(&feed, model, state.time + 0.5 * h, h, [&q, &v]);
-        let (inertia, inertia_own) = motor_by_motion(model, &feed, (step.0, step.1, b.leg), [&q, &v, &a]);
+        let (inertia, inertia_own) = system.motor_by_motion(model, &feed, (step.0, step.1, b.leg), [&q, &v, &a]);
         let moving = Dual { value: acceleration, slope: 1.0 };
         let by_acceleration =
             motion.impulse(&feed.impulse(model, step, moving, true).map(|table| table.map(|row| row.map(|x| x.slope))));
@@ -101,33 +102,41 @@ impl Equations<'_> {
     }
 }
 
-/// Returns the derivatives of the force of a motor without that of strains, by 12 velocity changes
-/// and by the acceleration.
-#[inline(always)]
-fn motor_by_motion(
-    model: &Model,
-    feed: &FeedElement,
-    (time, h, leg): (f64, f64, OneLeg),
-    motion: [&[f64; 12]; 3],
-) -> ([f64; 12], f64) {
+impl System {
+    /// Returns the derivatives of the force of a motor without that of strains, by 12 velocity
+    /// changes and by the acceleration.
     #[inline(always)]
-    fn force<T: Real, U: Over<T>>(
+    fn motor_by_motion(
+        &self,
+        model: &Model,
+        feed: &FeedElement,
+        (time, h, leg): (f64, f64, OneLeg),
+        motion: [&[f64; 12]; 3],
+    ) -> ([f64; 12], f64) {
+        let rates = [0.5 * leg.b * h, leg.b, 1.0 / h];
+        let [q, v, a] =
+            core::array::from_fn(|k| core::array::from_fn(|i| ByVelocity::along(motion[k][i], i, rates[k])));
+        let row = self.motor_of((model, feed), feed.over(time, h).0, [&q, &v, &a]).slope;
+        let [q, v, a] = motion.map(|x| x.map(constant::<f64>));
+        let moving = Dual { value: feed.extent.acceleration, slope: 1.0 };
+        (row, self.motor_of((model, feed), feed.over_with((time, h), moving).0, [&q, &v, &a]).slope)
+    }
+
+    /// Returns the force in N of a motor without that of strains, at a mean motion.
+    #[inline(always)]
+    fn motor_of<T: Real, U: Over<T>>(
+        &self,
         (model, feed): (&Model, &FeedElement),
         mean: Extent<T>,
         [q, v, a]: [&[U; 12]; 3],
-    ) -> U {
+    ) -> U
+    where
+        Single: Load<U>,
+    {
         let on_length = feed.with(model, mean).length_force([q, v, a], &feed.dead(model));
-        feed.motor(model, mean, q, on_length)
+        self.motor(model, feed, mean, q, on_length)
     }
-    let rates = [0.5 * leg.b * h, leg.b, 1.0 / h];
-    let [q, v, a] = core::array::from_fn(|k| core::array::from_fn(|i| ByVelocity::along(motion[k][i], i, rates[k])));
-    let row = force((model, feed), feed.over(time, h).0, [&q, &v, &a]).slope;
-    let [q, v, a] = motion.map(|x| x.map(constant::<f64>));
-    let moving = Dual { value: feed.extent.acceleration, slope: 1.0 };
-    (row, force((model, feed), feed.over_with((time, h), moving).0, [&q, &v, &a]).slope)
-}
 
-impl System {
     /// Returns the derivatives of what strains and internal damping do over a step; `before` is the
     /// change of the coordinates in the step before, and the share of it that counts.
     #[inline(always)]
@@ -217,7 +226,7 @@ impl System {
         h: f64,
         [q, v]: [&[f64; 12]; 2],
     ) -> [f64; 12] {
-        if !self.forces.at_points.any() {
+        if !self.forces.act_at_points() {
             return [0.0; 12];
         }
         let Extent { length, rate, .. } = feed.over(time - 0.5 * h, h).0;
@@ -246,24 +255,31 @@ mod tests {
     use super::*;
     use crate::effect::EffectWork;
     use crate::system::CableStep;
-    use crate::{At, Cable, Damping, Feed, Integrator, LineLoad, Method, Reel, Section, StepControl};
+    use crate::{
+        At, AxialLaw, Cable, Damping, Effects, Feed, Integrator, LineLoad, Method, Reel, Section, StepControl,
+    };
     use nalgebra::Vector3;
 
     /// The row of one element is that of the motor, and where material runs through it without a
     /// change of strain, matrix and column together, and row and derivative, are those of all
     /// residuals and of the motor, at random iterates of a cable with weight, line load and
-    /// internal damping.
+    /// internal damping, by the laws of Green and of Hooke.
     ///
     /// *Source.* Central differences of the residual of the whole cable and of the force of the
     /// motor.
     #[test]
     fn columns_are_derivatives_of_the_whole_residual() {
         let feeds = [Feed::Drum, Feed::Bag, Feed::Coil];
-        for (trial, at) in [At::Start, At::End].into_iter().cycle().take(12).enumerate() {
+        // those with kinks have two derivatives there
+        let laws = [None, Some(AxialLaw::Hooke)];
+        for (trial, at) in [At::Start, At::End].into_iter().cycle().take(24).enumerate() {
+            let law = laws[trial / 12].clone();
+            let trial = trial % 12;
             let mut cable = Cable::builder()
                 .points([Vector3::zeros(), Vector3::new(1.5, -1.0, 0.4)])
                 .section(Section::from_stiffness(1e4, 0.02, 0.4).unwrap())
                 .elements(5)
+                .effects(Effects { axial_law: law, ..Effects::default() })
                 .damping(Damping { axial: 2e-3, bending: 2e-3 })
                 .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) })
                 .fix(at)

@@ -42,6 +42,9 @@ mod linear;
 mod motors;
 mod sheave;
 mod step;
+mod tension;
+#[cfg(test)]
+mod tests;
 mod unknowns;
 mod wheel;
 mod work;

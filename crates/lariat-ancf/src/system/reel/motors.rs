@@ -5,13 +5,15 @@ use super::law::Law;
 use super::step::StepMotion;
 use super::{FeedElement, Feeds};
 use crate::Real;
+use crate::effect::acts::Single;
+use crate::element::kernel::Load;
 use crate::element::variable_length::Extent;
 use crate::model::Model;
 use crate::real::Over;
 use crate::reel::Feed;
 use crate::state::State;
 use crate::system::Equations;
-use crate::system::StepVectors;
+use crate::system::{StepVectors, System};
 use crate::term::{Account, Balance};
 
 impl FeedElement {
@@ -74,20 +76,30 @@ impl Law {
     }
 }
 
-impl FeedElement {
-    /// Returns the force in N of the motor at an extent, from the force on the length.
+impl System {
+    /// Returns the force in N of the motor of a feed at an extent, from the force on the length.
     #[inline(always)]
-    pub(super) fn motor<T: Real, U: Over<T>>(&self, model: &Model, extent: Extent<T>, q: &[U; 12], on_length: U) -> U {
-        let element = self.with(model, extent);
+    pub(super) fn motor<T: Real, U: Over<T>>(
+        &self,
+        model: &Model,
+        feed: &FeedElement,
+        extent: Extent<T>,
+        q: &[U; 12],
+        on_length: U,
+    ) -> U
+    where
+        Single: Load<U>,
+    {
+        let element = feed.with(model, extent);
         let mut wheel = extent.length.splat(0.0);
-        if let Some(law) = &self.law {
+        if let Some(law) = &feed.law {
             wheel = wheel + law.motor.wheel;
             let stock = law.motor.bounds[1];
-            if matches!(self.kind, Feed::Drum | Feed::BodyDrum) && stock.is_finite() {
+            if matches!(feed.kind, Feed::Drum | Feed::BodyDrum) && stock.is_finite() {
                 wheel = wheel + (-(extent.length - stock)).at_least(0.0) * element.inertia;
             }
         }
-        self.pull(model, &element, q, on_length) - wheel * extent.acceleration
+        self.pull(model, feed, &element, q, on_length) - wheel * extent.acceleration
     }
 }
 
@@ -123,7 +135,7 @@ impl Equations<'_> {
             }
             let on_length = self.on_length_of_step(feed, state, b);
             let (mean, [q, ..]) = (feed.over(state.time, b.h).0, StepMotion::of(feed, state, b).mean(b.h));
-            let force = feed.motor(self.model, mean, &q, on_length.force);
+            let force = self.system.motor(self.model, feed, mean, &q, on_length.force);
             let feed = &mut self.system.feeds.list[k];
             feed.on_length = on_length;
             feed.law.iter_mut().for_each(|law| law.force = force);

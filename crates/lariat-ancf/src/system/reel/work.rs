@@ -9,7 +9,7 @@
 //! ```text
 //! drum      pull = -B - 1/2 rho l'^2 (f^2 - 1)        power = l' (B + 1/2 rho v.v - w.r)
 //! bag       pull = -B - 1/2 rho l'^2 f^2
-//! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the strain energy per length at the eye
+//! coil      pull = -B - rho l'^2 f^2 + u_0            u_0 the axial energy per length at the eye, by its law
 //! ```
 //!
 //! With stock that rides with the body at the eye, which is a part of the system, the power is `l'
@@ -40,7 +40,9 @@ use super::feeds::{OnLength, control};
 use super::step::StepMotion;
 use super::{FeedElement, Source};
 use crate::Real;
+use crate::effect::acts::Single;
 use crate::effect::work::{POINTS, hermite};
+use crate::element::kernel::{DiscreteGradientForce, Load};
 use crate::element::variable_length::{Extent, VariableLength};
 use crate::model::Model;
 use crate::real::Over;
@@ -73,7 +75,7 @@ impl System {
             element.length_force(motion, &feed.dead(model)) + strain - self.points_on_length(model, feed, time, [q, v]);
         let on_length = others + damping;
         FeedForce {
-            pull: feed.pull(model, &element, q, on_length),
+            pull: self.pull(model, feed, &element, q, on_length),
             power: extent.rate * (others + entering(&element, &weight, q, v)),
             damping: extent.rate * damping,
         }
@@ -159,7 +161,7 @@ impl Equations<'_> {
             };
             let (element, motion) = (feed.with(self.model, mean), StepMotion::of(feed, state, b).mean(b.h));
             let work = (l1 - l0) * (force + self.entering_in_step(feed, &element, &motion));
-            let pull = feed.pull(self.model, &element, &motion[0], force);
+            let pull = self.system.pull(self.model, feed, &element, &motion[0], force);
             let own = &mut self.system.feeds.list[k];
             (own.length_before, own.pull) = (l0, Some(pull));
             self.system.meter.feed_work[own.side as usize] += work;
@@ -167,30 +169,39 @@ impl Equations<'_> {
     }
 }
 
-impl FeedElement {
+impl System {
     /// Returns the pull of the winch from the force on the length.
     #[inline(always)]
     pub(super) fn pull<T: Real, U: Over<T>>(
         &self,
         model: &Model,
+        feed: &FeedElement,
         element: &VariableLength<T>,
         q: &[U; 12],
         on_length: U,
-    ) -> U {
+    ) -> U
+    where
+        Single: Load<U>,
+    {
         let (rate, square) = (element.extent.rate, square_of_stretch(q));
         // what entering material takes over rho l'^2: the factor of f^2, and the rest
-        let [of_square, constant] = match self.kind {
+        let [of_square, constant] = match feed.kind {
             Feed::Bag if rate.is_above(0.0) => [0.5, 0.0],
             Feed::Coil if rate.is_above(0.0) => [1.0, 0.0],
             _ => [0.5, -0.5],
         };
         let pull = -on_length - (square * of_square + constant) * (rate * element.inertia * rate);
-        if self.kind != Feed::Coil || !rate.is_above(0.0) {
+        if feed.kind != Feed::Coil || !rate.is_above(0.0) {
             return pull;
         }
         // stock from a coil loses its strain energy
-        let strain = (square - 1.0) * 0.5;
-        pull + strain * (0.5 * model.elements[self.element(model)].section.axial_stiffness) * strain
+        let (e, strain) = (feed.element(model), (square - 1.0) * 0.5);
+        let stiffness = model.elements[e].section.axial_stiffness;
+        let lost = pull + strain * (0.5 * stiffness) * strain;
+        let Some(effects) = &self.forces.in_element else { return lost };
+        let mut energy = square.splat(0.0);
+        effects.add_rest_energy(square, &Single(e), &mut energy);
+        lost + energy * stiffness
     }
 }
 
