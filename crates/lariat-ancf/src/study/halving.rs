@@ -13,10 +13,10 @@
 //! ```
 //!
 //! is the error of run k, where p is the order that the last two distances show, at most 1. The
-//! method is of the second order where the motion is smooth; of the first across an impact, or where
-//! friction begins to hold, at a time that a run knows to a step. A distance that falls by more than
-//! the second order does so by chance, and is not believed. Nothing is claimed unless three
-//! distances show the order 1/2 each, or are far below what is asked for.
+//! method is of the second order where the motion is smooth; of the first across an impact, or
+//! where friction begins to hold, at a time that a run knows to a step. A distance that falls by
+//! more than the second order does so by chance, and is not believed. Nothing is claimed unless
+//! three distances show the order 1/2 each, or are far below what is asked for.
 //!
 //! # Validity
 //!
@@ -93,8 +93,8 @@ impl<F> Runs<F> {
         Ok((self.run(time.resolution(first))?, fine, time))
     }
 
-    /// Returns two meshes in steps that leave `left` (m) of the error to time on the finer one, too,
-    /// and the error in time there.
+    /// Returns two meshes in steps whose error in time is at most `left` (m) on the finer one, too,
+    /// and that error.
     pub(super) fn confirmed<W, E>(
         &mut self,
         (coarse, mut fine, before): Pair<W>,

@@ -17,9 +17,9 @@
 //!   four times the indicator of the finer one;
 //! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one
 //!   in shorter equal steps: see `time`. Where the world has what only the discrete gradient steps
-//!   ([`Study::coupled`]), from whole runs whose steps and host steps are halved: see `halving`. The
-//!   order p is 2/3 at most there, a claim rests on two distances between meshes at least, and the
-//!   error in time is measured on the last mesh again.
+//!   ([`Study::coupled`]), from whole runs whose steps and host steps are halved: see `halving`.
+//!   The order p is 2/3 at most there, a claim rests on two distances between meshes at least,
+//!   which show the order 1/2, and the error in time is measured on the last mesh again.
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has
 //! 1.5 to 3 times as many elements, after the difference and an order of 2.5. Where refining does
@@ -68,7 +68,7 @@ pub use claim::{Claim, Outcome, Proof, StudyError};
 pub use record::Record;
 pub use runs::Resolution;
 
-use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LIMIT, MESHES, REFINED};
+use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LIMIT, MESHES, REFINED, SMALL};
 use order::Difference;
 use runs::{Run, Runs, Span};
 use time::{Pilots, Time};
@@ -140,8 +140,8 @@ impl<F> Study<F> {
         Study { limit: elements, ..self }
     }
 
-    /// Tells whether the world has what only the discrete gradient steps: contact, torsion, a clutch,
-    /// a brake, a drum, a sheave. Its runs then differ in the number of
+    /// Tells whether the world has what only the discrete gradient steps: contact, torsion, a
+    /// clutch, a brake, a drum, a sheave. Its runs then differ in the number of
     /// [parts](Resolution::parts) of a host step, too. Default false.
     pub fn coupled(self, coupled: bool) -> Self {
         Study { coupled, ..self }
@@ -244,17 +244,17 @@ impl<F> Study<F> {
             // distances at the end of a motion that no mesh determines show no order of what is
             // before
             let apart = if outcome == Outcome::NoConvergence { beyond_by_one(&coarse, &fine) } else { apart };
+            let horizon = [apart, apart_before, time.horizon].into_iter().flatten().reduce(f64::min);
+            // runs that are near each other and come no closer
+            let horizon =
+                horizon.or_else(|| coarse.record.first_beyond(&fine.record, SMALL * error).filter(|_| coupled));
             let claim = Claim {
                 asked_m: error,
                 claimed_m: proven.then_some(mesh + time.error),
                 mesh_m: Some(mesh).filter(|mesh| mesh.is_finite()),
                 time_m: time.error,
                 outcome,
-                horizon_s: [apart, apart_before, time.horizon]
-                    .into_iter()
-                    .flatten()
-                    .reduce(f64::min)
-                    .filter(|_| !proven && span.is_some()),
+                horizon_s: horizon.filter(|_| !proven && span.is_some()),
                 other_branch: !proven && difference > BRANCH * fine.record.longest(),
                 host_step_limits: time.saturated,
                 elements: fine.elements,
