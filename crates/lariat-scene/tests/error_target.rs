@@ -281,21 +281,6 @@ fn an_error_below_the_precision_is_refused_before_anything_is_written() {
     assert!(!out.exists());
 }
 
-/// Rates that are unknowns: no method with a tolerance solves for them.
-#[test]
-fn reels_with_a_clutch_drums_and_sheaves_are_refused_by_name_before_anything_is_written() {
-    for (name, told) in [("tackle", "sheave"), ("tow_winch", "reel of cable"), ("windlass", "reel of cable")] {
-        let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("out");
-        let options = &mut Options { error: Some(1e-2), ..Options::default() };
-        match run::run(&read(name, &[], Purpose::Run), &out, options) {
-            Err(Error::Study { problem, .. }) => assert!(problem.contains(told), "{name}: {problem}"),
-            other => panic!("{name}: {other:?}"),
-        }
-        assert!(!out.exists());
-    }
-}
-
 /// A crate of 50 kg on a sling; the claim is the same in two runs, and is in summary.json.
 ///
 /// *Source.* The same scene with twice as many elements and a tolerance ten times tighter.

@@ -81,3 +81,25 @@ pub(crate) const ROUNDS: usize = 5;
 
 /// Least tolerance over the longest cable. Derived: below it steps are rounding errors.
 pub(crate) const TIGHTEST: f64 = 1e-12;
+
+/// Least number of distances between runs in ever shorter steps that a coupled study takes.
+/// Derived: two show an order, and a third that it is no chance.
+pub(crate) const AT_LEAST: usize = 3;
+
+/// Least number of distances between its meshes. Derived: one shows no order.
+pub(crate) const MESHES: usize = 2;
+
+/// Least order that its distances must show. Unknown: below it an error is more than 2.4 times the
+/// last distance, which two distances do not tell.
+pub(crate) const HALF: f64 = 0.5;
+
+/// Share of the error that is asked for below which distances are small. Derived: at the least
+/// order the error is 5.3 times that, a twentieth.
+pub(crate) const SMALL: f64 = 0.01;
+
+/// Ratio of the errors of two runs at the second order, that of the discrete gradient. Derived:
+/// steps are halved.
+pub(crate) const SECOND: f64 = 4.0;
+
+/// Most halvings of the host step. Unknown: it bounds the cost, at 64 times the first run.
+pub(crate) const MOST_HALVINGS: u32 = 6;

@@ -48,10 +48,18 @@ pub struct Claim {
     pub elements_needed: Option<usize>,
     /// Error of position per host step of the last run in m; `None` for an equilibrium.
     pub tolerance_m: Option<f64>,
+    /// Number of equal parts into which the last run divided each host step, more than 1 in a
+    /// [coupled](super::Study::coupled) study alone; the tolerance is that of a part.
+    #[serde(default = "one")]
+    pub parts: u32,
     /// Number of runs.
     pub runs: usize,
     /// Elements evaluated in all runs over those in the last.
     pub cost: f64,
+}
+
+fn one() -> u32 {
+    1
 }
 
 /// The last run of a study, and what is claimed about it.

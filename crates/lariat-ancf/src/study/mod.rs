@@ -16,17 +16,20 @@
 //!   both show, up to 2, with two meshes what the indicator shows, as far as the claim is at least
 //!   four times the indicator of the finer one;
 //! - `e_time` from runs at `8 tau` and `tau` or, where the host step limits their steps, from one
-//!   in shorter equal steps: see `time`.
+//!   in shorter equal steps: see `time`. Where the world has what only the discrete gradient steps
+//!   ([`Study::coupled`]), from whole runs whose steps and host steps are halved: see `halving`.
+//!   The order p is 2/3 at most there, a claim rests on two distances between meshes at least,
+//!   which show the order 1/2, and the error in time is measured on the last mesh again.
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has
 //! 1.5 to 3 times as many elements, after the difference and an order of 2.5. Where refining does
 //! not help (the third difference is above 0.6 of the first), the motion is not determined by its
 //! start within `e`, as that of a chaotic pendulum: the study reports the time up to which `e`
-//! holds. Where meshes are apart from the first tenth of the motion on, which is no chaos, the
-//! order is that of the last three differences; and where by it half as many elements again as are
-//! allowed would be needed, the study ends at once and reports how many: that number is an
-//! extrapolation, and no claim rests on it. A first run that fails is repeated with twice and four
-//! times as many elements.
+//! holds, in a coupled one by the last three meshes. Where meshes are apart from the first tenth of
+//! the motion on, which is no chaos, the order is that of the last three differences; and where by
+//! it half as many elements again as are allowed would be needed, the study ends at once and
+//! reports how many: that number is an extrapolation, and no claim rests on it. A first run that
+//! fails is repeated with twice and four times as many elements.
 //!
 //! # Validity
 //!
@@ -41,7 +44,8 @@
 //! between two meshes are not bounded, nor are orders below the first that neither distances nor
 //! indicator show: of 282 random equilibria with one claimed error each, one that is held between
 //! its ends was off by 1.13 of it, and of another all meshes up to 120 elements find an equilibrium
-//! that finer ones do not. The error in time of finer meshes is taken to be that of the first one.
+//! that finer ones do not. Unless the study is coupled, the error in time of finer meshes is taken
+//! to be that of the first one.
 //!
 //! # References
 //!
@@ -54,6 +58,7 @@
 //! What was tried, and what it gave: docs/decisions/study.md.
 
 mod claim;
+mod halving;
 mod order;
 mod record;
 mod runs;
@@ -63,9 +68,9 @@ pub use claim::{Claim, Outcome, Proof, StudyError};
 pub use record::Record;
 pub use runs::Resolution;
 
-use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LIMIT, REFINED};
+use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LIMIT, MESHES, REFINED, SMALL};
 use order::Difference;
-use runs::{Runs, Span};
+use runs::{Run, Runs, Span};
 use time::{Pilots, Time};
 
 /// A program that builds a world at a resolution and runs it, and the error that is asked of it.
@@ -103,6 +108,7 @@ pub struct Study<F> {
     run: F,
     error: f64,
     limit: usize,
+    coupled: bool,
 }
 
 impl<F> Study<F> {
@@ -121,7 +127,7 @@ impl<F> Study<F> {
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        Study { span: None, run, error: 1e-3, limit: LIMIT }
+        Study { span: None, run, error: 1e-3, limit: LIMIT, coupled: false }
     }
 
     /// Sets the error in m that is asked for. Default 1e-3 m.
@@ -132,6 +138,13 @@ impl<F> Study<F> {
     /// Sets the largest number of elements of a cable. Default 160.
     pub fn limit(self, elements: usize) -> Self {
         Study { limit: elements, ..self }
+    }
+
+    /// Tells whether the world has what only the discrete gradient steps: contact, torsion, a
+    /// clutch, a brake, a drum, a sheave. Its runs then differ in the number of
+    /// [parts](Resolution::parts) of a host step, too. Default false.
+    pub fn coupled(self, coupled: bool) -> Self {
+        Study { coupled, ..self }
     }
 
     /// Runs the world until its error is proven, or until refining does not help;
@@ -145,7 +158,7 @@ impl<F> Study<F> {
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        let Study { span, run, error, limit } = self;
+        let Study { span, run, error, limit, coupled } = self;
         if !(error.is_finite() && error > 0.0) {
             return Err(StudyError::InvalidError { value: error });
         }
@@ -155,18 +168,22 @@ impl<F> Study<F> {
             return Err(StudyError::InvalidSpan { steps, host_step });
         }
         let span = span.map(|span| Span { steps: (span.steps - 1e-9).ceil().max(1.0), ..span });
-        let mut runs = Runs { run, error, span, count: 0, evaluations: 0 };
+        let coupled = coupled && span.is_some();
+        let mut runs = Runs { run, error, span, coupled, count: 0, evaluations: 0 };
         let mut first = FIRST;
-        let (mut coarse, mut fine, time) = loop {
+        let (mut coarse, mut fine, mut time) = loop {
             match runs.pilots(first) {
                 Err(StudyError::Run { .. }) if first < LAST_FIRST => first *= 2,
                 outcome => break outcome?,
             }
         };
-        // where the error in time is not known, the meshes say from when on
-        let left = if time.stuck { 0.6 * error } else { error - time.error };
         let mut differences = Vec::new();
+        // the mesh whose error in time is known, where that of another one may be larger
+        let mut confirmed = fine.elements;
+        let mut apart_before = None;
         loop {
+            // where the error in time is not known, the meshes say from when on
+            let left = if time.stuck { 0.6 * error } else { error - time.error };
             let difference = coarse.record.distance(&fine.record)?;
             let ratio = coarse.record.refinement(&fine.record, coarse.elements, fine.elements);
             let refined = ratio >= REFINED;
@@ -177,6 +194,7 @@ impl<F> Study<F> {
             let shown = if differences.len() == 1 { indicated } else { order::shown_by_both(&differences, indicated) };
             let shown = shown.filter(|_| refined);
             let largest = fine.record.largest_order(span.is_none(), differences.len(), shown);
+            let largest = if coupled { largest.min(KINKS) } else { largest };
             let factor = if refined { order::factor(&differences, indicated, largest) } else { f64::INFINITY };
             // an order that no distances show is believed as far as the indicator agrees with the
             // claim
@@ -186,6 +204,7 @@ impl<F> Study<F> {
                     let of_waves = order::factor(&differences, indicated, KINKS) * difference;
                     (factor * difference).max(fine.record.indicated_error()).min(of_waves)
                 }
+                true if coupled => factor * difference.max(order::least_distance(&differences)),
                 true => factor * difference,
                 false => f64::INFINITY,
             };
@@ -197,42 +216,51 @@ impl<F> Study<F> {
             let next = ((fine.elements as f64 * growth).ceil() as usize).min(limit);
             let needed = order::needed(&differences, left).filter(|_| early);
             let needed = needed.map(|share| (share * fine.elements as f64).ceil());
-            let outcome = if mesh + time.error <= error && !time.stuck {
+            let proven =
+                mesh + time.error <= error && !time.stuck && (!coupled || order::converge(&differences, MESHES, error));
+            if proven && coupled && confirmed != fine.elements {
+                confirmed = fine.elements;
+                differences.pop();
+                (coarse, fine, time) = runs.confirmed((coarse, fine, time), error - mesh)?;
+                continue;
+            }
+            let beyond_by_one = |coarse: &Run<W>, fine: &Run<W>| {
+                let factor = order::factor(order::tail(&differences, 1), None, largest);
+                coarse.record.first_beyond(&fine.record, left / factor)
+            };
+            let outcome = if proven {
                 Outcome::Proven
             } else if order::stuck(&differences) || time.stuck && differences.len() > 2 {
                 Outcome::NoConvergence
             } else if (next as f64) < 1.5 * fine.elements as f64 || needed.is_some_and(|n| n > 1.5 * limit as f64) {
                 Outcome::ElementLimit
             } else {
+                // of runs with impacts two may agree by chance where all others are apart
+                apart_before = beyond_by_one(&coarse, &fine).filter(|_| coupled && refined);
                 coarse = fine;
-                fine = runs.run(Resolution { elements: next, tolerance: time.tolerance, max_step: None })?;
+                fine = runs.run(time.resolution(next))?;
                 continue;
             };
-            let proven = outcome == Outcome::Proven;
             // distances at the end of a motion that no mesh determines show no order of what is
             // before
-            let apart = if outcome == Outcome::NoConvergence {
-                let factor = order::factor(&differences[differences.len() - 1..], None, largest);
-                coarse.record.first_beyond(&fine.record, left / factor)
-            } else {
-                apart
-            };
+            let apart = if outcome == Outcome::NoConvergence { beyond_by_one(&coarse, &fine) } else { apart };
+            let horizon = [apart, apart_before, time.horizon].into_iter().flatten().reduce(f64::min);
+            // runs that are near each other and come no closer
+            let horizon =
+                horizon.or_else(|| coarse.record.first_beyond(&fine.record, SMALL * error).filter(|_| coupled));
             let claim = Claim {
                 asked_m: error,
                 claimed_m: proven.then_some(mesh + time.error),
                 mesh_m: Some(mesh).filter(|mesh| mesh.is_finite()),
                 time_m: time.error,
                 outcome,
-                horizon_s: [apart, time.horizon]
-                    .into_iter()
-                    .flatten()
-                    .reduce(f64::min)
-                    .filter(|_| !proven && span.is_some()),
+                horizon_s: horizon.filter(|_| !proven && span.is_some()),
                 other_branch: !proven && difference > BRANCH * fine.record.longest(),
                 host_step_limits: time.saturated,
                 elements: fine.elements,
                 elements_needed: needed.filter(|_| outcome == Outcome::ElementLimit).map(|needed| needed as usize),
                 tolerance_m: time.tolerance,
+                parts: time.resolution(fine.elements).parts,
                 runs: runs.count,
                 cost: runs.evaluations as f64 / fine.record.evaluations().max(1) as f64,
             };
@@ -248,7 +276,7 @@ impl<F> Runs<F> {
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
         if let Some(span) = self.span {
-            return self.in_time(first, span);
+            return if self.coupled { self.in_halves(first, span) } else { self.in_time(first, span) };
         }
         let [coarse, fine] =
             [first, 2 * first].map(|elements| self.run(Resolution { elements, ..Resolution::default() }));

@@ -38,7 +38,7 @@
 //!
 //! What was tried, and what it gave: docs/decisions/study.md.
 
-use crate::scales::study::{AIM, ASSUMED, FACTOR, LEAST, ORDERS};
+use crate::scales::study::{AIM, ASSUMED, FACTOR, HALF, LEAST, ORDERS, SMALL};
 
 /// Two meshes.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +88,7 @@ pub(super) fn shown_by_both(differences: &[Difference], indicated: Option<f64>) 
 }
 
 /// Returns the last of several distances, at most `count`.
-fn tail(differences: &[Difference], count: usize) -> &[Difference] {
+pub(super) fn tail(differences: &[Difference], count: usize) -> &[Difference] {
     &differences[differences.len().saturating_sub(count)..]
 }
 
@@ -100,6 +100,27 @@ pub(super) fn growth(differences: &[Difference], error: f64, one: bool) -> f64 {
     let finest = last.distance / (last.ratio.powf(order) - 1.0);
     let growth = (finest / (AIM * error)).powf(1.0 / (order + 0.5));
     if growth.is_finite() { growth.clamp(LEAST, 3.0) } else { 3.0 }
+}
+
+/// Returns what the last distance in m is at the [order](ASSUMED) that motions with impacts have at
+/// most: one below it is small by chance. 0 of a single one.
+pub(super) fn least_distance(differences: &[Difference]) -> f64 {
+    match differences {
+        [.., before, last] => {
+            let [first, second] = [before, last].map(|d| d.ratio.powf(ASSUMED));
+            before.distance * (1.0 - 1.0 / second) / (first - 1.0)
+        }
+        _ => 0.0,
+    }
+}
+
+/// Returns whether the last `count` distances show the [least order](HALF) each that a claim about
+/// impacts may rest on, or are small beside an error in m.
+pub(super) fn converge(differences: &[Difference], count: usize, error: f64) -> bool {
+    let last = tail(differences, count);
+    let small = |difference: &Difference| difference.distance <= SMALL * error;
+    let falls = |pair: &[Difference]| observed(pair).is_some_and(|order| order >= HALF);
+    last.len() == count && (last.iter().all(small) || last.windows(2).all(falls))
 }
 
 /// Returns whether refining does not bring the runs together.
@@ -143,6 +164,18 @@ mod tests {
         assert!((factor(&series(4.0), Some(3.0), 2.0) - 1.0 / 3.0).abs() < 1e-9);
         assert!((shown_by_both(&series(1.5), Some(3.0)).unwrap() - 1.5).abs() < 1e-6);
         assert_eq!(shown_by_both(&series(1.5)[..1], Some(3.0)).or(shown_by_both(&series(1.5), None)), None);
+    }
+
+    /// *Source.* Series of known orders, and one that does not fall.
+    #[test]
+    fn series_that_fall_too_slowly_do_not_converge() {
+        let series = |order: f64| -> Vec<Difference> {
+            (0..3).map(|k| Difference { distance: 2f64.powf(-order * f64::from(k)), ratio: 2.0 }).collect()
+        };
+        for (order, falls) in [(0.0, false), (0.4, false), (0.6, true), (2.0, true)] {
+            assert_eq!(converge(&series(order), 3, 1.0), falls, "{order}");
+            assert!(converge(&series(order), 3, 1e3) && !converge(&series(order)[..2], 3, 1e3));
+        }
     }
 
     /// *Source.* The definition of the order.

@@ -2,10 +2,10 @@
 
 use super::claim::StudyError;
 use super::record::Record;
-use crate::integrate::{Integrator, Method, StepControl};
+use crate::integrate::{ErrorNorm, Integrator, Method, StepControl};
 
 /// The mesh and the tolerance of a run of a [`Study`](super::Study).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
     /// Number of elements of the cable that has most.
     pub elements: usize,
@@ -13,6 +13,19 @@ pub struct Resolution {
     pub tolerance: Option<f64>,
     /// Length of equal steps in s, in the run that judges steps which the host step limits.
     pub max_step: Option<f64>,
+    /// Number of equal parts that a host step is to be divided into, each a host step of its own; 1
+    /// unless the study is [coupled](super::Study::coupled). Positions are recorded at the times of
+    /// whole host steps.
+    pub parts: u32,
+    /// Whether the [integrator](Self::integrator) is the discrete gradient; the tolerance is then
+    /// that of a part of a host step.
+    pub coupled: bool,
+}
+
+impl Default for Resolution {
+    fn default() -> Self {
+        Resolution { elements: 0, tolerance: None, max_step: None, parts: 1, coupled: false }
+    }
 }
 
 impl Resolution {
@@ -24,8 +37,15 @@ impl Resolution {
     }
 
     /// Returns the integrator: ESDIRK4 with the tolerance for every node and body, or in equal
-    /// steps; for an equilibrium the default one.
+    /// steps; where the study is coupled [`Integrator::COUPLED`] with the tolerance; for an
+    /// equilibrium the default one.
     pub fn integrator(&self) -> Integrator {
+        if let (true, Some(tolerance)) = (self.coupled, self.tolerance) {
+            return Integrator {
+                control: StepControl::ToleranceOf(tolerance, ErrorNorm::Bodies),
+                ..Integrator::COUPLED
+            };
+        }
         let control = self.max_step.map(StepControl::MaxStep).or(self.tolerance.map(StepControl::Tolerance));
         control.map_or(Integrator::default(), |control| Integrator { method: Method::Esdirk4, control })
     }
@@ -52,6 +72,8 @@ pub(super) struct Runs<F> {
     pub(super) run: F,
     pub(super) error: f64,
     pub(super) span: Option<Span>,
+    /// Whether the world has what only the discrete gradient steps.
+    pub(super) coupled: bool,
     pub(super) count: usize,
     pub(super) evaluations: u64,
 }

@@ -59,6 +59,8 @@ pub(super) struct Time {
     pub horizon: Option<f64>,
     /// Tolerance that has it.
     pub tolerance: Option<f64>,
+    /// How often the host step was halved for it, where the study is coupled.
+    pub halvings: Option<u32>,
 }
 
 /// The runs of a mesh and of one twice as fine, and their error in time.
@@ -71,7 +73,7 @@ impl<F> Runs<F> {
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance), max_step: None };
+        let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance), ..Resolution::default() };
         let [allowed, aim] = SHARE.map(|share| share * self.error);
         let (mut tau, mut looser, mut before) = (self.error / (4.0 * span.steps), LOOSER, f64::INFINITY);
         let mut fine = self.run(at(2 * first, tau))?;
@@ -134,7 +136,7 @@ impl<F> Runs<F> {
         let same = some.max(others) <= SATURATED * some.min(others);
         let run = if same { coarse } else { fine };
         let mean = span.steps * span.host_step / run.record.steps_of_one();
-        let check = Resolution { elements: run.elements, tolerance: None, max_step: Some(mean / SHORTER) };
+        let check = Resolution { elements: run.elements, max_step: Some(mean / SHORTER), ..Resolution::default() };
         let check = self.run(check)?;
         let ratio = check.record.steps() as f64 / run.record.steps() as f64;
         let distance = run.record.distance(&check.record)?;

@@ -151,6 +151,17 @@ impl Draft {
         draft
     }
 
+    /// Returns whether it has something that only the discrete gradient steps.
+    pub fn needs_discrete_gradient(&self) -> bool {
+        let slips = |wound: &Wound| match wound {
+            Wound::Reel(reel) => reel.max_force.is_some(),
+            Wound::Drum => true,
+        };
+        let effects = &self.effects;
+        let wound = self.wound.iter().flatten().any(slips);
+        self.sheave || wound || effects.contact.is_some() || effects.torsion.is_some()
+    }
+
     /// Adds a feature.
     fn add(&mut self, feature: Feature) {
         let effects = &mut self.effects;

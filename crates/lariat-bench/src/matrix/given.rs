@@ -6,7 +6,7 @@ use super::laws::{Ended, STEP, apart};
 use super::scene::{Fault, Scene};
 use crate::stability::outcome::Check;
 use lariat_ancf::study::{Outcome, Record, Resolution, Study, StudyError};
-use lariat_ancf::{Fidelity, Vector3};
+use lariat_ancf::{Fidelity, Integrator, Vector3};
 
 /// Simulated time in s.
 const DURATION: f64 = 0.2;
@@ -25,10 +25,12 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
     let draft = Draft::of(&[feature], false);
     let once = |resolution: &Resolution, record: &mut Record| -> Result<Vec<Vector3<f64>>, Fault> {
         let elements = resolution.elements_of(draft.elements, draft.elements);
-        let mut scene = Scene::new(STEP, false);
+        let mut scene = Scene::new(STEP / f64::from(resolution.parts), false);
         scene.add_meshed(&draft, elements, Some(Fidelity::Custom(resolution.integrator())))?;
         while scene.time < DURATION - 0.25 * STEP {
-            scene.step()?;
+            for _ in 0..resolution.parts {
+                scene.step()?;
+            }
             record.frame(scene.time);
             scene.set.iter().for_each(|(_, cable)| {
                 record.cable(cable);
@@ -36,7 +38,8 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
         }
         Ok(scene.positions())
     };
-    let proof = match Study::new(DURATION, STEP, once).error(ASKED).limit(LIMIT).run() {
+    let study = Study::new(DURATION, STEP, once).coupled(draft.needs_discrete_gradient());
+    let proof = match study.error(ASKED).limit(LIMIT).run() {
         Ok(proof) => proof,
         Err(StudyError::Run { source, .. }) => return Err(Ended::Refused(source.to_string())),
         Err(error) => return Err(Ended::Refused(error.to_string())),
@@ -45,7 +48,9 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
         // told, and no claim
         return Ok(Vec::new());
     }
-    let fine = Fidelity::Engineering;
+    // what engineering is for contact and reels
+    let coupled = draft.needs_discrete_gradient();
+    let fine = if coupled { Fidelity::Custom(Integrator::COUPLED) } else { Fidelity::Engineering };
     let mut finer = Scene::new(STEP / 8.0, false);
     let failed = |fault: Fault| Ended::Failed(0.0, format!("the finer run: {fault}"));
     finer.add_meshed(&draft, FINER * draft.elements, Some(fine)).map_err(failed)?;

@@ -139,7 +139,7 @@ impl Study {
     }
 
     fn trace(&self, elements: usize, tolerance: Option<f64>) -> Result<Trace, Error> {
-        Trace::of(&at(&self.scene, &Resolution { elements, tolerance, max_step: None }), self.purpose)
+        Trace::of(&at(&self.scene, &Resolution { elements, tolerance, ..Resolution::default() }), self.purpose)
     }
 
     /// Returns the row of the scene as it is.

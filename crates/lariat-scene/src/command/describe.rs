@@ -52,8 +52,9 @@ fn claim(summary: &Summary) -> String {
     let mesh = claim.mesh_m.map_or("not known".to_string(), |mesh| format!("{mesh:.1e} m"));
     let elements: Vec<String> = error.elements_of.iter().map(|(name, n)| format!("{name:?} {n}")).collect();
     let tolerance = claim.tolerance_m.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.1e} m"));
+    let parts = if claim.parts > 1 { format!(", host steps in {} parts", claim.parts) } else { String::new() };
     format!(
-        "{verdict} (mesh {mesh}, time {:.1e} m{})\n  elements {}{tolerance}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
+        "{verdict} (mesh {mesh}, time {:.1e} m{})\n  elements {}{tolerance}{parts}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
         claim.time_m,
         if claim.host_step_limits { ": the host step limits the steps" } else { "" },
         elements.join(", "),

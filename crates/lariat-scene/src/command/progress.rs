@@ -25,7 +25,7 @@ impl Bar {
 
     /// Begins the next run of a study.
     pub fn begin_run(&mut self, resolution: &Resolution) {
-        let Resolution { elements, tolerance, max_step } = *resolution;
+        let Resolution { elements, tolerance, max_step, parts, .. } = *resolution;
         let number = self.run.map_or(1, |(number, _)| number + 1);
         self.run = Some((number, elements));
         let elapsed = self.start.elapsed();
@@ -34,8 +34,9 @@ impl Bar {
         }
         let tolerance = tolerance.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.1e} m"));
         let steps = max_step.map_or(String::new(), |step| format!(", steps of {step:.1e} s"));
+        let parts = if parts > 1 { format!(", host steps in {parts} parts") } else { String::new() };
         let seconds = elapsed.as_secs_f64();
-        let line = format!("study, {seconds:.0} s: run {number} with elements = {elements}{tolerance}{steps}");
+        let line = format!("study, {seconds:.0} s: run {number} with elements = {elements}{tolerance}{steps}{parts}");
         match &self.bar {
             Some(bar) => bar.println(line),
             None => _ = writeln!(stderr(), "{line}"),

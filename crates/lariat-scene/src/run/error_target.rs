@@ -4,7 +4,7 @@ use super::output::Output;
 use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
 use crate::scene::body::{BodyKind, BodyScene};
-use crate::scene::{CableScene, Engine, Purpose, Scene};
+use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::Vector3;
 use lariat_ancf::study::{Claim, Outcome, Proof, Record, Resolution, Study, StudyError};
@@ -38,7 +38,11 @@ impl ErrorClaim {
         if scene.engine == Engine::Rapier {
             not_covered.push("single precision of bodies");
             if purpose != Purpose::Static {
-                not_covered.push("the host step of Rapier: its contacts, joints and free bodies");
+                not_covered.push(match scene.is_coupled() {
+                    // runs differ in the host step
+                    true => "Rapier's model of contacts and joints",
+                    false => "the host step of Rapier: its contacts, joints and free bodies",
+                });
             }
         }
         let kinematic = scene.bodies.iter().any(|body| body.kind == BodyKind::Kinematic);
@@ -89,7 +93,7 @@ pub(super) fn conduct(
     error: f64,
     options: &mut Options<'_>,
 ) -> Result<Recorded, Error> {
-    check(scene, error, purpose)?;
+    check(scene, error)?;
     // what hinders files is told before the first run, and the folder is held from then on; the rows of runs are kept until
     // it is known which of them is the result
     let files = open(scene)?;
@@ -108,7 +112,9 @@ pub(super) fn conduct(
                 cable.integrator = resolution.integrator().into();
             }
         }
-        let done = simulate(&scene, &in_memory, purpose, options, Some(&mut *record)).map_err(Stopped::Before)?;
+        divide(&mut scene, resolution.parts);
+        let recorded = Some((&mut *record, resolution.parts));
+        let done = simulate(&scene, &in_memory, purpose, options, recorded).map_err(Stopped::Before)?;
         if velocities_jump(&scene, &done) {
             record.velocities_jump();
         }
@@ -119,7 +125,7 @@ pub(super) fn conduct(
         Purpose::Static => Study::of_equilibrium(each),
     };
     let limit = LIMIT.max(4 * largest);
-    match study.error(error).limit(limit).run() {
+    match study.error(error).limit(limit).coupled(scene.is_coupled()).run() {
         Ok(Proof { world: (scene, mut done), claim }) => {
             let claim = ErrorClaim::of(&scene, claim, purpose, velocities_jump(&scene, &done));
             done.output = done.output.move_to(&scene, files)?;
@@ -138,6 +144,14 @@ pub(super) fn conduct(
     }
 }
 
+/// Divides host steps into equal parts; probes are sampled as before.
+fn divide(scene: &mut Scene, parts: u32) {
+    if parts > 1 {
+        scene.probes.iter_mut().for_each(|probe| _ = probe.every.get_or_insert(scene.dt));
+        scene.dt /= f64::from(parts);
+    }
+}
+
 fn described(error: &StudyError<Stopped>) -> String {
     match error {
         StudyError::DifferentTimes { time, other } => format!("runs at {time} s and {other} s"),
@@ -152,19 +166,8 @@ fn velocities_jump(scene: &Scene, done: &Done) -> bool {
     done.world.velocities_jump || bodies.into_iter().any(|body| corners(&scene.bodies[body]))
 }
 
-/// Refuses an error that rounding does not allow to prove, and cables that error control does not solve for.
-fn check(scene: &Scene, error: f64, purpose: Purpose) -> Result<(), Error> {
-    if purpose != Purpose::Static {
-        let winds =
-            |cable: &CableScene| cable.drum.is_some() || cable.reel.as_ref().is_some_and(|r| r.max_force.is_some());
-        let winding =
-            scene.cables.iter().find(|cable| winds(cable)).map(|cable| format!("reel of cable {:?}", cable.name));
-        let unsolved = winding.or_else(|| scene.sheaves.first().map(|sheave| format!("sheave {:?}", sheave.name)));
-        if let Some(unsolved) = unsolved {
-            let problem = format!("{unsolved}: its rate is an unknown, which runs with a tolerance do not solve for");
-            return Err(Error::Study { error, problem });
-        }
-    }
+/// Refuses an error that rounding does not allow to prove.
+fn check(scene: &Scene, error: f64) -> Result<(), Error> {
     let longest = scene.cables.iter().fold(0.0, |longest: f64, cable| longest.max(cable.length));
     let mut least = (LEAST * longest, "double precision");
     if scene.engine == Engine::Rapier {

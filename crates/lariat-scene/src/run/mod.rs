@@ -160,6 +160,9 @@ impl Done {
     }
 }
 
+/// What takes the positions of a run, and of how many host times it takes one; the last one, too.
+type Recorder<'a> = Option<(&'a mut Record, u32)>;
+
 /// Advances a world to the end of its scene.
 fn advance(
     scene: &Scene,
@@ -167,8 +170,10 @@ fn advance(
     output: &mut Output,
     watch: &mut Watch,
     options: &mut Options<'_>,
-    mut record: Option<&mut Record>,
+    mut record: Recorder<'_>,
 ) -> Result<(), Error> {
+    let parts = record.as_ref().map_or(1, |(_, parts)| u64::from(*parts));
+    let mut host_times = 0;
     let mut schedule = Schedule::new(scene);
     // a copy that is stepped to the probe times between two host steps, so that probes change nothing
     let mut ahead: Option<World> = None;
@@ -185,9 +190,12 @@ fn advance(
             output.sample(probe, nominal(sample, every).min(scene.duration), read)?;
         }
         if event.host {
-            output.frame(world)?;
             watch.note(world)?;
-            note(&mut record, world);
+            if host_times % parts == 0 || event.time >= scene.duration {
+                output.frame(world)?;
+                note(&mut record, world);
+            }
+            host_times += 1;
         }
         if let Some(progress) = options.progress.as_mut().filter(|_| event.host) {
             progress(event.time);
@@ -207,7 +215,7 @@ struct Recorded {
     outcome: Result<(), Error>,
 }
 
-/// Runs a scene, and keeps its samples; `record` takes the positions at host times.
+/// Runs a scene, and keeps its samples; `record` takes positions at host times.
 ///
 /// # Errors
 /// What hinders it before it begins; later errors are in [`Done`].
@@ -216,7 +224,7 @@ fn simulate(
     open: Open<'_>,
     purpose: Purpose,
     options: &mut Options<'_>,
-    mut record: Option<&mut Record>,
+    mut record: Recorder<'_>,
 ) -> Result<Done, Error> {
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
@@ -264,8 +272,8 @@ fn simulate(
 }
 
 /// Records the cables, the points that probes read, and the dynamic bodies.
-fn note(record: &mut Option<&mut Record>, world: &World) {
-    let Some(record) = record else { return };
+fn note(record: &mut Recorder<'_>, world: &World) {
+    let Some((record, _)) = record else { return };
     record.frame(world.time());
     let cables = world.cables();
     for cable in &cables {

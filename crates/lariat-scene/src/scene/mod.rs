@@ -160,6 +160,24 @@ pub struct Scene {
     pub probes: Vec<ProbeScene>,
 }
 
+impl Scene {
+    /// Returns whether it has something that only the integrator `discrete-gradient` steps: contact, torsion, a rate that is an unknown, or
+    /// a stock that rides on a dynamic body.
+    pub(crate) fn is_coupled(&self) -> bool {
+        let dynamic = |body: usize| self.bodies[body].kind == body::BodyKind::Dynamic;
+        let rides = |part: usize| {
+            let held = self.attachments.iter().filter(|a| reel::is_at_eye(self, part, (a.cable, a.arc_length)));
+            self.cables[part].reel.is_some() && held.filter_map(|a| a.body).any(dynamic)
+        };
+        let only = |(part, cable): (usize, &CableScene)| {
+            let slips = cable.reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
+            let effects = &cable.effects;
+            effects.contact.is_some() || effects.torsion.is_some() || slips || cable.drum.is_some() || rides(part)
+        };
+        !self.sheaves.is_empty() || self.cables.iter().enumerate().any(only)
+    }
+}
+
 /// Checks the values of a document against each other; `fallback` names a scene without name, and files are named from `folder`.
 pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: Purpose) -> Result<Scene, Error> {
     let root = KeyPath::default();

@@ -165,7 +165,7 @@ pub(super) fn put_on_drum(doc: &Document<'_>, scene: &mut Scene, cable: usize, r
 }
 
 /// Returns whether a point of a part is the eye of its reel.
-fn is_at_eye(scene: &Scene, part: usize, (cable, s): (usize, f64)) -> bool {
+pub(super) fn is_at_eye(scene: &Scene, part: usize, (cable, s): (usize, f64)) -> bool {
     let own = &scene.cables[part];
     let eye = if own.reel_at_start { 0.0 } else { own.length };
     cable == part && (s - eye).abs() <= 1e-9 * own.length
