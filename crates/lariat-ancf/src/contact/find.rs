@@ -70,18 +70,27 @@ impl ContactStep {
                     continue;
                 }
                 let pair = Pair { motion, contact, element, section, from, number, obstacle, step, radius };
+                let first = [self.points.len(), self.watched.len()];
                 self.add_samples(&pair);
+                let mut sharp = false;
                 obstacle.surface.features(&own, near, &mut |feature| {
                     let mut is_near = |centre: &Vector3<f64>, radius: f64| {
                         let limit = radius + feature.radius;
                         feature.distance_squared(centre) <= limit * limit
                     };
                     self.tests += 1;
+                    sharp |= feature.radius == 0.0 && is_near(&own, near);
                     if !pair.is_wide(feature.radius) && is_near(&own, near) && (!is_long || tube.any(&mut is_near)) {
                         self.nearby.push(Nearby { element, from, obstacle: number, feature, start: None });
                         self.add_feature(&pair, &feature);
                     }
                 });
+                if sharp {
+                    let samples = self.points[first[0]..].iter_mut().chain(&mut self.watched[first[1]..]);
+                    samples
+                        .filter(|point| point.key.2 < PLACES)
+                        .for_each(|point| point.glide = Some(pair.glide(point.xi)));
+                }
             }
         }
         self.hand_over(motion.memory);

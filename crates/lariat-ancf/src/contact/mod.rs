@@ -25,7 +25,9 @@
 //! The points of Lobatto's rule, three within each element and the nodes, act on faces and on round
 //! surfaces that are wide beside their spacing; the ends of a cable are among them, so an end that
 //! points at a face touches it with its centre a radius away. On edges, corners and thin rods acts
-//! the closest point of the element, one for each of these features. Both are chosen when a step
+//! the closest point of the element, one for each of these features; on edges and corners, of no
+//! radius of their own, samples act as well, so that one that slides off a face hands its force on,
+//! and beside them the force along the cable loses nothing (glide.rs). Both are chosen when a step
 //! begins (find.rs). Samples stay the same material points during it, and keep their patches;
 //! closest points follow the iteration (roll.rs), act between those of the beginning and the end of
 //! a step while the cable slides (slide.rs), and what was not near at the beginning is found when
@@ -71,6 +73,7 @@
 mod border;
 mod evaluation;
 mod find;
+mod glide;
 mod impact;
 mod impulse;
 mod lag;

@@ -20,6 +20,9 @@ impl ContactPoint {
     pub fn linearise(&mut self, obstacle: &ObstacleStep, changes: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) {
         let (element, row) = (self.key.0 as usize, self.row());
         let mut tangents = Tangents::default();
+        if let Some(glide) = &mut self.glide {
+            glide.follow(&changes(element, &glide.slope));
+        }
         let at = self.evaluate(obstacle, &changes(element, &self.shape), self.about, Some(&mut tangents));
         let apart = self.between.is_some();
         let row_slip = if apart { obstacle.slip(&row.start, &changes(element, &row.shape)) } else { at.slip };
@@ -45,6 +48,9 @@ impl ContactPoint {
     /// Evaluates it at the result of the linear solve, and returns how far that was off in N.
     #[inline]
     pub fn follow(&mut self, obstacle: &ObstacleStep, changes: impl Fn(usize, &[f64; 4]) -> Vector3<f64>) -> f64 {
+        if let Some(glide) = &mut self.glide {
+            glide.follow(&changes(self.key.0 as usize, &glide.slope));
+        }
         let linear = &self.linear;
         self.now = self.evaluate(obstacle, &changes(self.key.0 as usize, &self.shape), About::default(), None);
         let pressure = linear.pressure + linear.slope * (self.now.depth - linear.depth);

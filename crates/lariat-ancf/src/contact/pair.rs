@@ -1,6 +1,7 @@
 //! An element and an obstacle: the points of the one that can touch the other.
 
 use super::evaluation::Row;
+use super::glide::Glide;
 use super::law::NormalLaw;
 use super::motion::Motion;
 use super::path::ObstacleStep;
@@ -94,6 +95,11 @@ impl Pair<'_> {
     pub fn row(&self, xi: f64) -> Row {
         let shape = shape::position(xi, self.section.length);
         Row { shape, start: combine(self.motion.q, self.element, &shape) }
+    }
+
+    /// Returns the tangent of the cable at a place of the element.
+    pub fn glide(&self, xi: f64) -> Glide {
+        Glide::new(xi, self.section.length, |shape| combine(self.motion.q, self.element, shape))
     }
 
     /// Returns whether a point of the element does not touch the obstacle.
@@ -210,9 +216,10 @@ pub(super) fn is_wide(surface: f64, cable: f64, length: f64) -> bool {
     surface + cable >= WIDE * length / SPACINGS
 }
 
-/// Returns whether the closest points of elements act on a place of a surface, not samples.
+/// Returns whether the closest points of elements alone act on a place of a surface. On a sharp one
+/// act samples, too: one that slides off a face would else lose there what it carries.
 pub(super) fn is_thin(found: &Nearest, radius: f64, length: f64) -> bool {
-    found.feature && found.patch.radius().is_some_and(|own| !is_wide(own, radius, length))
+    found.feature && found.patch.radius().is_some_and(|own| own > 0.0 && !is_wide(own, radius, length))
 }
 
 /// Returns the centre and the radius of a ball about an element, and its largest way in the first

@@ -1,6 +1,7 @@
 //! One contact over a step: its force, its tangent, and what it does to the energy.
 
 use super::evaluation::{Between, Evaluation, Row};
+use super::glide::Glide;
 use super::impulse::Impact;
 use super::law::{NormalLaw, friction, spring_energy};
 use super::linear::{About, Linear, Roll, Tangents};
@@ -71,6 +72,8 @@ pub(in crate::contact) struct ContactPoint {
     pub recalls: Option<usize>,
     /// How it moves along its element.
     pub roll: Option<Roll>,
+    /// The tangent of the cable, of a sample beside a sharp part of the obstacle.
+    pub glide: Option<Glide>,
     /// What the last linear solve was made with.
     pub linear: Linear,
     /// The depth and the friction about which the next one is.
@@ -194,10 +197,19 @@ impl ContactPoint {
         let push = self.push(start, obstacle.h);
         let end = push.at(depth);
         let after = self.weight * end.energy;
+        let slip = obstacle.slip(&self.start, change);
+        let glide = self.glide.filter(|_| !self.rebound.elastic);
+        let along = |pressure: f64| glide?.along(&self.law, (start, pressure), &gap.mean, &slip);
         if end.force <= 0.0 && about.depth.is_none() {
             let loss = before - after + spring_energy(stiffness, &u0);
-            let slip = obstacle.slip(&self.start, change);
-            return Evaluation { depth, start, normal: gap.normal, slip, loss, energy: after, ..Evaluation::default() };
+            let mut out =
+                Evaluation { depth, start, normal: gap.normal, slip, loss, energy: after, ..Evaluation::default() };
+            if let Some(along) = along(0.0) {
+                out.force = along.force * self.weight;
+                out.arm = obstacle.arm(&self.start, change);
+                out.loss -= along.work * self.weight;
+            }
+            return out;
         }
         let (mut pressure, mut slope) = (end.force, end.slope);
         if let Some(about) = about.depth {
@@ -211,7 +223,6 @@ impl ContactPoint {
             (tangents.normal, tangents.across) = (row * row.transpose() * (self.weight * slope), row);
         }
         let normal_force = self.weight * pressure;
-        let slip = obstacle.slip(&self.start, change);
         let mut out = Evaluation {
             force: gap.mean * normal_force,
             arm: obstacle.arm(&self.start, change),
@@ -228,6 +239,10 @@ impl ContactPoint {
             slope,
             ..Evaluation::default()
         };
+        if let Some(along) = along(pressure) {
+            out.force += along.force * self.weight;
+            out.loss -= along.work * self.weight;
+        }
         if self.pays {
             out.loss -= out.work;
             out.work = 0.0;

@@ -12,7 +12,7 @@ use crate::obstacle::Obstacle;
 use crate::one_leg::OneLeg;
 use crate::state::{ContactMemory, Key};
 use crate::term::{Account, Balance};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 /// The contacts of a step, and what may become one; empty for a cable that is near nothing.
 #[derive(Clone, Debug, Default)]
@@ -145,7 +145,7 @@ impl ContactStep {
             point.linearise(&self.obstacles[point.obstacle], |e, shape| combine(change, e, shape));
             let linear = &point.linear;
             let Tangents { normal, friction, .. } = linear.tangents;
-            if normal == Matrix3::zeros() {
+            if normal == Matrix3::zeros() && linear.force == Vector3::zeros() {
                 continue;
             }
             add_force(rhs, point.key.0 as usize, &point.shape, &(linear.force * h));
@@ -182,7 +182,7 @@ impl ContactStep {
             sum.loss += now.loss;
             sum.obstacles += now.work;
             sum.work += now.force.dot(&moved);
-            if now.normal_force > 0.0 {
+            if now.force != Vector3::zeros() {
                 let force = now.force * self.h;
                 add_force(rhs, point.key.0 as usize, &point.shape, &force);
             }

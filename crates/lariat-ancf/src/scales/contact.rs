@@ -191,3 +191,11 @@ pub(crate) const RESOLVED: f64 = 2.5;
 
 /// Largest number of steps of the search for the depth of a force. Unknown: it ends a loop.
 pub(crate) const DEPTHS: usize = 60;
+
+/// Square of the cosine between the normal and the cable below which a sample lies on an obstacle.
+/// Derived: it lies along it more than across.
+pub(crate) const LIES: f64 = 0.5;
+
+/// Share of the depth below which the secant of an energy is the mean of the forces at its ends.
+/// Derived: the difference of the energies has 1e-10 of rounding there.
+pub(crate) const SECANT: f64 = 1e-6;
