@@ -3,9 +3,10 @@
 //! # Equation
 //!
 //! A sample of a cable that slides along itself over an edge comes into contact and leaves it again
-//! within a few steps. The end-point derivative `p(d1)` of the law takes `W(d0) - W(d1) + p(d1) (d1
-//! - d0)` from every one of them, which brakes the cable without friction. So the motion s beside
-//! the obstacle is split by the mean unit tangent t of the cable, and with it the depth:
+//! within a few steps. The end-point derivative `p(d1)` of the law takes the energy
+//! `W(d0) - W(d1) + p(d1) (d1 - d0)` from every one of them, which brakes the cable without
+//! friction. So the motion s beside the obstacle is split by the mean unit tangent t of the cable,
+//! and with it the depth:
 //!
 //! ```text
 //! d1 = d0 + D_t + D_n,    D_t = -(gbar . t) (t . s)
