@@ -8,11 +8,6 @@ pub(crate) const MADE: f64 = 1e-3;
 /// methods damp what a step does not resolve.
 pub(crate) const LOST: f64 = 1e-2;
 
-/// Share of what damping takes up to which integration may take as much more without a warning.
-/// Derived: the damping ratio of a wire rope is known to a factor of two, 1 to 4 % (ENV 1998-6),
-/// and that factor holds four such shares.
-pub(crate) const LOST_OF_DAMPING: f64 = 0.25;
-
 /// Share of the pull at a point above which the force of a shock is warned of. Derived: the root of
 /// [`LOST`], for its wave has the square of the share of the energy.
 pub(crate) const SHOCK: f64 = 0.1;

@@ -12,8 +12,7 @@
 //! energy with dynamic bodies or other cables has the balance of all that moves together with it,
 //! its island, of which the first cable tells ([`IslandChange`]); a run of a scene has one of
 //! everything. Energy made above 1e-3 S, or lost above 1e-2 S, beyond what rounding may account
-//! for, is worth a warning; energy that is lost only if it is also more than a quarter of what
-//! damping, drag, friction and impacts took, which would have taken it a little later.
+//! for, is worth a warning.
 //!
 //! # Validity
 //!
@@ -31,9 +30,11 @@
 //! # Alternatives considered
 //!
 //! The total energy alone: it changes by the work of loads and moving supports, and by damping.
+//! Lost energy told only where it is more than a quarter of what damping took: a bridge whose forces
+//! are 7 % off was silent (seed 5110 of tests/seeds of lariat-rapier).
 
 use crate::scales::LEAST_HEIGHT;
-use crate::scales::watch::{LEAST_STRAIN_OF_RUN, LOST, LOST_OF_DAMPING, MADE};
+use crate::scales::watch::{LEAST_STRAIN_OF_RUN, LOST, MADE};
 use serde::{Deserialize, Serialize};
 
 /// The energy of a run: what integration made or lost, and what to compare it with.
@@ -129,7 +130,6 @@ impl EnergyBalance {
         if self.made() > MADE {
             return Some(Verdict::Made(self.made_at_s, self.made_j, self.scale_j));
         }
-        let lost = self.lost() > LOST && self.lost_j > LOST_OF_DAMPING * self.dissipated_j;
-        lost.then_some(Verdict::Lost(self.lost_at_s, self.lost_j, self.scale_j))
+        (self.lost() > LOST).then_some(Verdict::Lost(self.lost_at_s, self.lost_j, self.scale_j))
     }
 }
