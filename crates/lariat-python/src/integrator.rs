@@ -75,9 +75,7 @@ impl Integrator {
             StepControl::MaxStep(h) => named.set_item("max_step", h)?,
             StepControl::Stable(share) => named.set_item("stable", share)?,
         }
-        if let Method::DiscreteGradientWith { dissipation } = self.0.method {
-            named.set_item("dissipation", dissipation)?;
-        }
+        // the name of the method has the dissipation in it
         Ok(((self.0.method.to_string(),), named))
     }
 
