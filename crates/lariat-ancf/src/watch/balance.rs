@@ -30,8 +30,8 @@
 //! # Alternatives considered
 //!
 //! The total energy alone: it changes by the work of loads and moving supports, and by damping.
-//! Lost energy told only where it is more than a quarter of what damping took: a bridge whose forces
-//! are 7 % off was silent (seed 5110 of tests/seeds of lariat-rapier).
+//! Lost energy told only where it is more than a quarter of what damping took: a bridge whose
+//! forces are 7 % off was silent (seed 5110 of tests/seeds of lariat-rapier).
 
 use crate::scales::LEAST_HEIGHT;
 use crate::scales::watch::{LEAST_STRAIN_OF_RUN, LOST, MADE};
