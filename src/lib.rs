@@ -44,10 +44,11 @@
 //!
 //! # Limits
 //!
-//! Cables have no shear and no plasticity; the axial law is linear in the Green strain, or one of those of [`AxialLaw`]. Torsion is that of an
-//! isotropic cable, without waves of twist. Contact, torsion, and reels that a force drives are stepped by the integrator
-//! `discrete-gradient`; whatever does not go together is an error that names both. JSON snapshots need `serde_json` with feature
-//! `float_roundtrip`.
+//! Cables have no shear and no plasticity; the axial law is linear in the Green strain, or one of
+//! those of [`AxialLaw`]. Torsion is that of an isotropic cable, without waves of twist. Contact,
+//! torsion, and reels that a force drives are stepped by the integrator `discrete-gradient`;
+//! whatever does not go together is an error that names both. JSON snapshots need `serde_json` with
+//! feature `float_roundtrip`.
 //!
 //! The equations, their validity and their sources are in `docs/theory.md` of the repository, recipes in `docs/cookbook.md`, error against
 //! CPU time in `docs/accuracy`.

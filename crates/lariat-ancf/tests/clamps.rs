@@ -292,7 +292,8 @@ fn an_end_that_is_attached_later_is_where_it_was_drawn() {
     }
 }
 
-/// A cable that is clamped at its start and then fixed or clamped at its end is held at both drawn ends, as one that is built so.
+/// A cable that is clamped at its start and then fixed or clamped at its end is held at both drawn
+/// ends, as one that is built so.
 ///
 /// *Source.* The same cable by the builder.
 #[test]

@@ -258,7 +258,8 @@ fn of_each_kind() -> Vec<Warning> {
     ]
 }
 
-/// Whatever is warned of, something is told, and nothing that is told explains a warning of an earlier level: causes come first, and no two explain each other.
+/// Whatever is warned of, something is told, and nothing that is told explains a warning of an
+/// earlier level: causes come first, and no two explain each other.
 #[test]
 fn no_list_of_warnings_is_silenced() {
     let all = of_each_kind();

@@ -105,8 +105,9 @@ pub struct ContactIgnored {
     pub collider: ColliderHandle,
 }
 
-/// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Sent once for each kind, up to the level
-/// of [`Settings::warn_level`](lariat_rapier::Settings::warn_level), and logged; the text of the warning says what to do.
+/// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Sent once for
+/// each kind, up to the level of [`Settings::warn_level`](lariat_rapier::Settings::warn_level), and
+/// logged; the text of the warning says what to do.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableWarning {
     /// The cable.

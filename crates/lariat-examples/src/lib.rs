@@ -1,5 +1,6 @@
-//! The examples of Lariat that need more than the mechanics are the example targets of this package. The code on the pages of the
-//! repository is compiled and run as its documentation tests, because all crates are at hand here.
+//! The examples of Lariat that need more than the mechanics are the example targets of this
+//! package. The code on the pages of the repository is compiled and run as its documentation tests,
+//! because all crates are at hand here.
 
 /// Runs the code of a page.
 #[cfg(doctest)]

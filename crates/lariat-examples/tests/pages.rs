@@ -1,4 +1,5 @@
-//! The pages of the repository: links lead somewhere, the cookbook shows the code that is run, and its recipes do what they say.
+//! The pages of the repository: links lead somewhere, the cookbook shows the code that is run, and
+//! its recipes do what they say.
 
 #[path = "../../../examples/cookbook/recipes/mod.rs"]
 mod recipes;

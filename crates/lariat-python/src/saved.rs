@@ -1,7 +1,7 @@
-//! Objects as bytes: a line with their kind, the version of this package and a checksum (CRC-32), then
-//! MessagePack. A single number of a damaged object would read back as another number, without an
-//! error; the checksum finds every damage of up to 32 bits in a row, and of any other kind all but one
-//! of 4e9.
+//! Objects as bytes: a line with their kind, the version of this package and a checksum (CRC-32),
+//! then MessagePack. A single number of a damaged object would read back as another number, without
+//! an error; the checksum finds every damage of up to 32 bits in a row, and of any other kind all
+//! but one of 4e9.
 
 use crate::error::{Raise, raise};
 use pyo3::prelude::*;

@@ -188,7 +188,6 @@ pub fn sweep_local(
     let mut teller = Teller::new(progress);
     let rows = py.detach(|| {
         let source = Source { file, text };
-        source.check(&points)?;
         let store = out.as_deref().map(|out: &Path| Store::open(out, &source)).transpose()?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let each = |_: &Row, _: bool| _ = done.fetch_add(1, Ordering::Relaxed);
@@ -217,7 +216,8 @@ pub fn sweep_local(
     Ok(rows.map_err(raise::<Error>)?.iter().map(line).collect())
 }
 
-/// Raises the error of settings if a scene refuses all of them, as those of a key that does not exist.
+/// Raises the error of settings if a scene refuses all of them, as those of a key that does not
+/// exist.
 #[pyfunction]
 pub fn sweep_check(py: Python<'_>, file: &str, text: &str, points: Vec<Vec<String>>) -> PyResult<()> {
     py.detach(|| Source { file, text }.check(&points)).map_err(raise)

@@ -201,9 +201,10 @@ impl Store {
     }
 }
 
-/// Runs a scene with each of these settings on the threads of rayon's present pool, and returns the rows in their order. `each` is called
-/// when a row is there, with whether it was done before. Once `stop` is true, runs end after their present host step, and the rows that are
-/// missing are left out.
+/// Runs a scene with each of these settings on the threads of rayon's present pool, and returns the
+/// rows in their order. `each` is called when a row is there, with whether it was done before. Once
+/// `stop` is true, runs end after their present host step, and the rows that are missing are left
+/// out.
 ///
 /// # Errors
 /// [`Error::Output`] if a row cannot be written; further runs are not begun then.

@@ -1,7 +1,8 @@
-//! Runs to a given error with contact, clutches, brakes, drums and sheaves: the true error is at most the claimed one, or nothing is claimed
-//! from a horizon on.
+//! Runs to a given error with contact, clutches, brakes, drums and sheaves: the true error is at
+//! most the claimed one, or nothing is claimed from a horizon on.
 //!
-//! *Source.* The same scene with four times as many elements in an eighth of the host step, or half of that of the claimed run.
+//! *Source.* The same scene with four times as many elements in an eighth of the host step, or half
+//! of that of the claimed run.
 
 use lariat_ancf::study::{Claim, Outcome, Resolution};
 use lariat_scene::run::{Options, Recording, collect};
@@ -77,7 +78,8 @@ fn what_is_claimed_holds_against_finer_runs() {
     assert!(count >= 10 && 2 * proven > count, "{proven} of {count}");
 }
 
-/// What is on disk has the rows of the host steps that the scene asks for, however many the runs took.
+/// What is on disk has the rows of the host steps that the scene asks for, however many the runs
+/// took.
 #[test]
 fn samples_are_those_of_the_host_steps_of_the_scene() {
     let (asked, scene) = scenes().into_iter().find(|(_, scene)| scene.name == "motor_of_bounded_force").unwrap();

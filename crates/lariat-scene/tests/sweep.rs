@@ -102,8 +102,9 @@ fn a_restart_runs_only_what_is_missing() {
     assert!(Store::open(folder.path(), &other).unwrap().done(&points[0]).is_none());
 }
 
-/// A sweep that is stopped while runs are under way ends them, and keeps the rows that are done: with
-/// the same store the rest is run later. Runs of an hour would not end within the time of a test.
+/// A sweep that is stopped while runs are under way ends them, and keeps the rows that are done:
+/// with the same store the rest is run later. Runs of an hour would not end within the time of a
+/// test.
 #[test]
 fn a_sweep_that_is_stopped_ends_its_runs() {
     let folder = tempfile::tempdir().unwrap();

@@ -79,8 +79,9 @@ impl ContactStep {
                         feature.distance_squared(centre) <= limit * limit
                     };
                     self.tests += 1;
-                    sharp |= feature.radius == 0.0 && is_near(&own, near);
-                    if !pair.is_wide(feature.radius) && is_near(&own, near) && (!is_long || tube.any(&mut is_near)) {
+                    let close = is_near(&own, near);
+                    sharp |= close && feature.radius == 0.0;
+                    if close && !pair.is_wide(feature.radius) && (!is_long || tube.any(&mut is_near)) {
                         self.nearby.push(Nearby { element, from, obstacle: number, feature, start: None });
                         self.add_feature(&pair, &feature);
                     }

@@ -91,12 +91,12 @@ impl Judged for Warning {
             | Warning::CoarseTwist { .. } => Sign::Mesh,
             Warning::Sinks { .. } => Sign::Depth,
             Warning::TwistSlips { .. } => Sign::Twist,
-            Warning::FrictionLags { .. } => Sign::Friction,
             Warning::UntouchedObstacles { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
             | Warning::FastReel { .. }
             | Warning::UnseenLoad { .. }
+            | Warning::FrictionLags { .. }
             | Warning::RoundedEnds { .. } => return None,
         })
     }

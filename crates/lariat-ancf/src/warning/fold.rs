@@ -14,49 +14,30 @@
 pub use super::level::{Judged, Sign};
 
 /// What each cause explains, and why.
-const CAUSES: [(Sign, &[Sign], &str); 10] = [
-    (
-        Sign::Sizes,
-        &[Sign::Strain, Sign::Steps, Sign::Mesh, Sign::Depth, Sign::EnergyLost],
-        "stiffness, mass and radius go with powers of a size in another unit, and strains, frequencies and bends with them",
-    ),
-    (
-        Sign::Shock,
-        &[Sign::Steps, Sign::Mesh, Sign::EnergyLost],
-        "a jump of the velocity has all frequencies: no step and no element resolves it, and what integration damps is lost",
-    ),
-    (
-        Sign::Inside,
-        &[Sign::Depth, Sign::Steps, Sign::Mesh, Sign::EnergyLost],
-        "contact pushes out what starts inside, with any force, and bends it sharply",
-    ),
-    (
-        Sign::Corner,
-        &[Sign::Steps, Sign::Mesh, Sign::EnergyLost],
-        "the strain at a corner is set free at once, as a jump of the velocity is",
-    ),
-    (
-        Sign::Gap,
-        &[Sign::Strain, Sign::Steps, Sign::Mesh, Sign::EnergyLost],
-        "what is put elsewhere, or starts elsewhere, is pulled to its place within steps, at any speed",
-    ),
-    (
-        Sign::EnergyMade,
-        &[Sign::Steps, Sign::Mesh, Sign::EnergyLost],
-        "steps that do not resolve the motion make it, and it goes into the shortest waves, which no mesh resolves",
-    ),
-    (
-        Sign::Crossing,
-        &[Sign::Steps, Sign::Mesh, Sign::Depth],
-        "a cable goes through where mesh and steps do not resolve the contact: one remedy",
-    ),
-    (Sign::Twist, &[Sign::Mesh], "twist is lost where an element turns too far: one remedy"),
-    (
-        Sign::Steps,
-        &[Sign::EnergyLost],
-        "what a method damps grows with the frequency of the motion times the step: one remedy",
-    ),
-    (Sign::Mesh, &[Sign::Depth], "between its points of contact a cable sags with the square of the element length"),
+const CAUSES: [(Sign, &[Sign]); 10] = [
+    // stiffness, mass and radius go with powers of a size in another unit, and strains, frequencies
+    // and bends with them
+    (Sign::Sizes, &[Sign::Strain, Sign::Steps, Sign::Mesh, Sign::Depth, Sign::EnergyLost]),
+    // a jump of the velocity has all frequencies: no step and no element resolves it, and what
+    // integration damps is lost
+    (Sign::Shock, &[Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
+    // contact pushes out what starts inside, with any force, and bends it sharply
+    (Sign::Inside, &[Sign::Depth, Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
+    // the strain at a corner is set free at once, as a jump of the velocity is
+    (Sign::Corner, &[Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
+    // what is put elsewhere, or starts elsewhere, is pulled to its place within steps, at any speed
+    (Sign::Gap, &[Sign::Strain, Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
+    // steps that do not resolve the motion make it, and it goes into the shortest waves, which no
+    // mesh resolves
+    (Sign::EnergyMade, &[Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
+    // a cable goes through where mesh and steps do not resolve the contact: one remedy
+    (Sign::Crossing, &[Sign::Steps, Sign::Mesh, Sign::Depth]),
+    // twist is lost where an element turns too far: one remedy
+    (Sign::Twist, &[Sign::Mesh]),
+    // what a method damps grows with the frequency of the motion times the step: one remedy
+    (Sign::Steps, &[Sign::EnergyLost]),
+    // between its points of contact a cable sags with the square of the element length
+    (Sign::Mesh, &[Sign::Depth]),
 ];
 
 /// Sorts warnings by level; those of one level keep their order.
@@ -66,7 +47,7 @@ pub fn sort<T: Judged>(warnings: &mut [T]) {
 
 /// Returns whether a cause of a sign explains a warning of the same cable.
 pub fn explains<T: Judged>(cause: Sign, symptom: &T) -> bool {
-    let of = |sign: Sign| CAUSES.iter().any(|(own, symptoms, _)| *own == cause && symptoms.contains(&sign));
+    let of = |sign: Sign| CAUSES.iter().any(|(own, symptoms)| *own == cause && symptoms.contains(&sign));
     symptom.sign().is_some_and(of)
 }
 
@@ -109,7 +90,7 @@ pub fn lines<T: Judged, S: PartialEq>(
 ) -> Vec<String> {
     let explained = explained(warnings, subject, &told);
     let mut kinds: Vec<(&T, usize)> = Vec::new();
-    for (warning, _) in warnings.iter().zip(&explained).filter(|(w, cause)| cause.is_none() && told(w)) {
+    for (warning, _) in warnings.iter().zip(explained).filter(|(w, cause)| cause.is_none() && told(w)) {
         match kinds.iter_mut().find(|(other, _)| other.same_kind(warning)) {
             Some((worst, count)) => {
                 *count += 1;

@@ -68,8 +68,6 @@ pub enum Sign {
     Depth,
     /// Twist that is lost.
     Twist,
-    /// Friction that does not settle.
-    Friction,
 }
 
 /// What is read of a warning to order and fold it.

@@ -127,11 +127,13 @@ fn a_rope_that_slides_over_a_thin_rod_without_friction_is_not_braked() {
     }
 }
 
-/// A taut rope that is drawn along itself over the edge of a box without friction has the same tension on both sides, at three meshes and steps; with friction
-/// that of the capstan.
+/// A taut rope that is drawn along itself over the edge of a box without friction has the same
+/// tension on both sides, at three meshes and steps; with friction that of the capstan.
 ///
-/// *Source.* T2/T1 = exp(mu pi/2), Euler-Eytelwein, over a way of many elements, at which the tension swings. The end-point derivative of the law of depth for samples
-/// that slide over the edge would brake the rope by 3 to 5 %, closest points alone on meshes as fine as the rope by 40 to 80 %.
+/// *Source.* T2/T1 = exp(mu pi/2), Euler-Eytelwein, over a way of many elements, at which the
+/// tension swings. The end-point derivative of the law of depth for samples that slide over the
+/// edge would brake the rope by 3 to 5 %, closest points alone on meshes as fine as the rope by 40
+/// to 80 %.
 #[test]
 fn a_rope_that_slides_over_an_edge_is_braked_by_its_friction_alone() {
     for (elements, rate, friction) in [

@@ -148,7 +148,8 @@ fn a_load_turns_a_drum_and_a_drum_hoists_a_load() {
     }
 }
 
-/// A load turns a drum under every axial law: the speed is that under Green's law but for the strain, and the account of energy closes.
+/// A load turns a drum under every axial law: the speed is that under Green's law but for the
+/// strain, and the account of energy closes.
 ///
 /// *Source.* Conservation of energy; the laws differ by 3/2 of the strain, 1e-4 here.
 #[test]

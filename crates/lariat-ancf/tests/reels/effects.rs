@@ -13,7 +13,8 @@ fn laws() -> [AxialLaw; 3] {
     [AxialLaw::Hooke, AxialLaw::Rope, AxialLaw::Curve(vec![[0.0, 0.0], [4e-3, 30.0], [0.1, 900.0]])]
 }
 
-/// A force that depends on all that it may: a spring to a line that depends on the particle, and a drag, both growing from zero.
+/// A force that depends on all that it may: a spring to a line that depends on the particle, and a
+/// drag, both growing from zero.
 #[derive(Debug)]
 struct Medium;
 
@@ -27,10 +28,11 @@ impl ForceDensity for Medium {
     }
 }
 
-/// A load hangs by its reel under every axial law, after the reel has hoisted it over several elements: the tension at the eye is the weight, and
-/// the length that of the law.
+/// A load hangs by its reel under every axial law, after the reel has hoisted it over several
+/// elements: the tension at the eye is the weight, and the length that of the law.
 ///
-/// *Source.* Statics; the laws themselves: 30 N strain EA 1e4 N by 3e-3, and the curve by 4e-3, its row.
+/// *Source.* Statics; the laws themselves: 30 N strain EA 1e4 N by 3e-3, and the curve by 4e-3, its
+/// row.
 #[test]
 fn a_load_hangs_by_its_reel_as_the_law_says() {
     let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
@@ -56,8 +58,10 @@ fn a_load_hangs_by_its_reel_as_the_law_says() {
     }
 }
 
-/// A load falls on a rope with every axial law from a motor, against a brake, off a free spool, a coil and a bag: the account of energy closes, the
-/// rate is that under Green's law but for the strain, and that of steps of an eighth but for the first host step, within which the load gains g dt at most.
+/// A load falls on a rope with every axial law from a motor, against a brake, off a free spool, a
+/// coil and a bag: the account of energy closes, the rate is that under Green's law but for the
+/// strain, and that of steps of an eighth but for the first host step, within which the load gains
+/// g dt at most.
 ///
 /// *Source.* Conservation of energy; the laws differ by 3/2 of the strain, 1e-3 at most.
 #[test]
@@ -92,8 +96,9 @@ fn loads_fall_on_reels_under_every_axial_law() {
     }
 }
 
-/// A damped rope swings in space while reels pay it out and take it in at either end, with each axial law, and under a force per length of place,
-/// velocity, time and particle: whatever the method, the energy changes by the work of the reel and of the effects, and all methods agree.
+/// A damped rope swings in space while reels pay it out and take it in at either end, with each
+/// axial law, and under a force per length of place, velocity, time and particle: whatever the
+/// method, the energy changes by the work of the reel and of the effects, and all methods agree.
 ///
 /// *Source.* Conservation of energy; the methods have nothing in common but the forces.
 #[test]
@@ -166,10 +171,11 @@ impl ForceDensity for Marks {
     }
 }
 
-/// A particle keeps its arc length whatever a reel at the start takes in and pays out, over splits and merges, through a saved state, and when the reel is
-/// taken away.
+/// A particle keeps its arc length whatever a reel at the start takes in and pays out, over splits
+/// and merges, through a saved state, and when the reel is taken away.
 ///
-/// *Source.* A straight cable that slides through its eye: the place of a particle is its arc length and what came out.
+/// *Source.* A straight cable that slides through its eye: the place of a particle is its arc
+/// length and what came out.
 #[test]
 fn particles_keep_their_arc_length_at_a_reel() {
     let integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };

@@ -112,7 +112,8 @@ fn atwood(loads: [f64; 2], lengths: [f64; 2], density: f64, dt: f64) -> Tackle {
     tackle
 }
 
-/// Atwood's machine with friction under every axial law: the speed is that under Green's law but for the strain, and the account of energy closes.
+/// Atwood's machine with friction under every axial law: the speed is that under Green's law but
+/// for the strain, and the account of energy closes.
 ///
 /// *Source.* Conservation of energy; the laws differ by 3/2 of the strain, 2e-4 here.
 #[test]

@@ -23,6 +23,7 @@ const FINER: usize = 6;
 /// [`Ended`].
 pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
     let draft = Draft::of(&[feature], false);
+    let coupled = draft.needs_discrete_gradient();
     let once = |resolution: &Resolution, record: &mut Record| -> Result<Vec<Vector3<f64>>, Fault> {
         let elements = resolution.elements_of(draft.elements, draft.elements);
         let mut scene = Scene::new(STEP / f64::from(resolution.parts), false);
@@ -38,7 +39,7 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
         }
         Ok(scene.positions())
     };
-    let study = Study::new(DURATION, STEP, once).coupled(draft.needs_discrete_gradient());
+    let study = Study::new(DURATION, STEP, once).coupled(coupled);
     let proof = match study.error(ASKED).limit(LIMIT).run() {
         Ok(proof) => proof,
         Err(StudyError::Run { source, .. }) => return Err(Ended::Refused(source.to_string())),
@@ -49,7 +50,6 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
         return Ok(Vec::new());
     }
     // what engineering is for contact and reels
-    let coupled = draft.needs_discrete_gradient();
     let fine = if coupled { Fidelity::Custom(Integrator::COUPLED) } else { Fidelity::Engineering };
     let mut finer = Scene::new(STEP / 8.0, false);
     let failed = |fault: Fault| Ended::Failed(0.0, format!("the finer run: {fault}"));

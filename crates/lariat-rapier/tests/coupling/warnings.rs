@@ -240,8 +240,8 @@ fn a_gap_that_is_still_to_close_is_told_when_asked_for() {
     assert_eq!((set.open_gap(hook), set.take_events()), (Ok(None), vec![]));
 }
 
-/// A load on a rope that a game puts elsewhere: the gap is told, and neither the steps nor the mesh that cannot follow it. Fidelity game is told nothing of
-/// mesh and steps, whatever happens to it.
+/// A load on a rope that a game puts elsewhere: the gap is told, and neither the steps nor the mesh
+/// that cannot follow it. Fidelity game is told nothing of mesh and steps, whatever happens to it.
 #[test]
 fn a_body_that_is_put_elsewhere_is_told_as_a_gap() {
     for level in [None, Some(Level::Coarse)] {

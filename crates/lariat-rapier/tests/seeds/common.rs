@@ -42,8 +42,8 @@ pub fn cable(from: Vector3<f64>, to: Vector3<f64>, section: Section) -> CableBui
     Cable::builder().points([from, to]).section(section)
 }
 
-/// Returns by level and name what is told of the accuracy of a run, whatever the fidelity. What is told of meshes is left out: what they are compared with has
-/// the same.
+/// Returns by level and name what is told of the accuracy of a run, whatever the fidelity. What is
+/// told of meshes is left out: what they are compared with has the same.
 pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
     let mut set = set.clone();
     set.settings.warn_level = Some(Level::Coarse);
@@ -75,7 +75,8 @@ pub fn judge(of_test: Range<u64>, false_alarms: f64, run: impl Fn(u64) -> (bool,
         .and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
     let mut wrong = Vec::new();
     let (mut right, mut alarms) = (0, Vec::new());
-    // of right and of wrong scenes those that are told of as setup or wrong, as coarse alone, and not at all
+    // of right and of wrong scenes those that are told of as setup or wrong, as coarse alone, and
+    // not at all
     let mut counts = [[0; 3]; 2];
     for seed in range.unwrap_or(of_test) {
         let (off, told, case) = run(seed);

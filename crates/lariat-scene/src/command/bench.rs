@@ -1,7 +1,9 @@
-//! `lariat report`, `lariat stability`, `lariat matrix` and `lariat table1`, which the program `lariat-bench` runs.
+//! `lariat report`, `lariat stability`, `lariat matrix` and `lariat table1`, which the program
+//! `lariat-bench` runs.
 //!
-//! They belong to the unpublished package `lariat-bench`, which is not linked into this command. `lariat report ...` starts the
-//! program `lariat-bench` in the folder of this one. Under `cargo run --bin lariat -- report ...` cargo builds and runs it.
+//! They belong to the unpublished package `lariat-bench`, which is not linked into this command.
+//! `lariat report ...` starts the program `lariat-bench` in the folder of this one. Under `cargo
+//! run --bin lariat -- report ...` cargo builds and runs it.
 
 use clap::{Args, Subcommand};
 use std::ffi::OsString;
@@ -60,9 +62,11 @@ pub fn run(bench: &Bench) -> u8 {
     }
 }
 
-/// Returns the command that starts `lariat-bench`: through cargo if cargo started this program, so that it is up to date.
+/// Returns the command that starts `lariat-bench`: through cargo if cargo started this program, so
+/// that it is up to date.
 fn command() -> Option<Command> {
-    // from the workspace, whose build is shared, and not from the package, which would be built with features of its own
+    // from the workspace, whose build is shared, and not from the package, which would be built
+    // with features of its own
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../Cargo.toml");
     if let Some(cargo) = std::env::var_os("CARGO").filter(|_| manifest.is_file()) {
         let mut command = Command::new(cargo);

@@ -105,7 +105,8 @@ fn bodies(statics: &BodyStatics) -> String {
     text
 }
 
-/// Returns three numbers, with zero for those that are rounding errors of the largest, or of a quantity of size `scale`.
+/// Returns three numbers, with zero for those that are rounding errors of the largest, or of a
+/// quantity of size `scale`.
 fn vector(x: &[f64; 3], scale: f64) -> String {
     let largest = x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let least = (1e-9 * largest).max(1e-12 * scale);

@@ -1,5 +1,5 @@
-//! A progress bar on stderr, if that is a terminal and the run is longer than a second. A study that is longer says there, terminal or not,
-//! when each of its runs begins.
+//! A progress bar on stderr, if that is a terminal and the run is longer than a second. A study
+//! that is longer says there, terminal or not, when each of its runs begins.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lariat_ancf::study::Resolution;

@@ -15,7 +15,8 @@ pub struct SweepArguments {
     /// Folder for the results; what is done there is not run again
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Values of a key, such as cable.sling.elements=10,20; may be repeated: all combinations are run
+    /// Values of a key, such as cable.sling.elements=10,20; may be repeated: all combinations are
+    /// run
     #[arg(long, value_name = "KEY=A,B,C", required = true)]
     vary: Vec<String>,
     /// Override a key in all runs

@@ -161,8 +161,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Returns whether it has something that only the integrator `discrete-gradient` steps: contact, torsion, a rate that is an unknown, or
-    /// a stock that rides on a dynamic body.
+    /// Returns whether it has something that only the integrator `discrete-gradient` steps:
+    /// contact, torsion, a rate that is an unknown, or a stock that rides on a dynamic body.
     pub(crate) fn is_coupled(&self) -> bool {
         let dynamic = |body: usize| self.bodies[body].kind == body::BodyKind::Dynamic;
         let rides = |part: usize| {

@@ -138,9 +138,8 @@ pub(super) fn read(doc: &Document<'_>, scene: &Scene, i: usize, row: ProbeTable)
         Target::Torsion { cable, arc_length: row.at.map_or(Ok(0.0), point)? }
     } else if let Some(name) = &row.energy {
         let cable = cable_or_all("energy", name)?;
-        let twisted = |index: &usize| scene.cables[*index].effects.torsion.is_some();
-        let torsion =
-            cable.map_or_else(|| (0..scene.cables.len()).any(|index| twisted(&index)), |index| twisted(&index));
+        let read = cable.map_or(&scene.cables[..], |index| &scene.cables[index..=index]);
+        let torsion = read.iter().any(|cable| cable.effects.torsion.is_some());
         Target::Energy { cable, torsion }
     } else {
         Target::Momentum(cable_or_all("momentum", row.momentum.as_deref().unwrap_or("all"))?)

@@ -10,8 +10,8 @@ pub(crate) use told::{lines, with_texts};
 use lariat_ancf::warning::less_energy;
 use serde::{Deserialize, Serialize};
 
-/// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields with `kind`, `text`, `level` and,
-/// if it follows from another one, `explained_by`.
+/// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields
+/// with `kind`, `text`, `level` and, if it follows from another one, `explained_by`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -46,7 +46,8 @@ pub enum Warning {
         body: String,
         /// Arc length of the deepest place in m.
         at_m: f64,
-        /// Its distance from the surface in m; in a body thinner than an element, half the length inside.
+        /// Its distance from the surface in m; in a body thinner than an element, half the length
+        /// inside.
         depth_m: f64,
         /// Whether it is attached to the body, and inside beyond what the attachment needs.
         #[serde(default)]
@@ -98,7 +99,8 @@ pub enum Warning {
         time_s: f64,
         /// Share of the steps in which the body deviated from its prediction.
         steps: f64,
-        /// Difference between the forces that were read and those that moved the body, as a share of these.
+        /// Difference between the forces that were read and those that moved the body, as a share
+        /// of these.
         force: f64,
     },
     /// A sheave that a point of its cable stopped.
@@ -119,7 +121,8 @@ pub enum Warning {
     WheelTurned {
         /// Name of the sheave.
         sheave: String,
-        /// Angle in rad between the directions of the part at the start and then, seen from the body.
+        /// Angle in rad between the directions of the part at the start and then, seen from the
+        /// body.
         angle_rad: f64,
         /// Time in s of the largest share of the error.
         time_s: f64,

@@ -161,7 +161,8 @@ fn no_name_breaks_the_page_and_nothing_is_loaded() {
 
 /// Plots are made by the names of columns: every name has its quantity or follows one that has.
 ///
-/// *Source.* The files of probes in docs/scene.md, which the test of the command compares with files.
+/// *Source.* The files of probes in docs/scene.md, which the test of the command compares with
+/// files.
 #[test]
 fn the_page_knows_the_columns_of_every_probe() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -4,7 +4,8 @@ use crate::summary_of;
 use lariat_ancf::Level;
 use lariat_scene::{Purpose, Warning};
 
-/// Ropes that a kinematic body holds at one end and moves along them from the first instant on, by a method that damps.
+/// Ropes that a kinematic body holds at one end and moves along them from the first instant on, by
+/// a method that damps.
 fn thrown(names: &[&str], velocity: f64) -> String {
     let one = |(i, name): (usize, &&str)| {
         let z = i as f64;
@@ -21,7 +22,8 @@ fn thrown(names: &[&str], velocity: f64) -> String {
     )
 }
 
-/// A shock is told alone: the steps and the energy that it costs follow from it, and stay in the summary. Without one they are told.
+/// A shock is told alone: the steps and the energy that it costs follow from it, and stay in the
+/// summary. Without one they are told.
 ///
 /// *Source.* A wave of the force v sqrt(EA m) = 100 N s/m v in a cable of 1 N.
 #[test]

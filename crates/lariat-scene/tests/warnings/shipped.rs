@@ -17,7 +17,8 @@ const MEANT: [(&str, &[&str]); 8] = [
     ("hard/payload_midpoint_1", &["energy_made"]),
 ];
 
-/// Scenes that take longer than all others together: a bridge of 8 cables, and a rope that must rest for a minute.
+/// Scenes that take longer than all others together: a bridge of 8 cables, and a rope that must
+/// rest for a minute.
 const SLOW: [&str; 2] = ["scenes/bridge", "contact/stick"];
 
 /// A scene tells what it is there to show, and nothing else.
