@@ -237,6 +237,10 @@ impl From<lariat_scene::Error> for Raise {
                 let body = body.clone();
                 Raise::of(&error, vec![("time", time.into()), ("body", body.into())])
             }
+            E::TimedCut { ref cable } => {
+                let cable = cable.clone();
+                Raise::of(&error, vec![("cable", cable.into())])
+            }
             E::Write { time, .. } | E::Interrupted { time } => Raise::of(&error, vec![("time", time.into())]),
             _ => Raise::of(&error, Vec::new()),
         }

@@ -42,7 +42,7 @@ mod _lariat {
     #[pymodule_export]
     use crate::section::Section;
     #[pymodule_export]
-    use crate::world::World;
+    use crate::world::{World, load_scene};
 
     /// The version of the wheel.
     #[pymodule_export]

@@ -162,3 +162,54 @@ def test_integrators_pickle() -> None:
     ):
         again = pickle.loads(pickle.dumps(integrator))
         assert again == integrator == copy.copy(integrator) and repr(again) == repr(integrator)
+
+
+def test_a_loaded_scene_is_stepped_and_changed_by_its_names() -> None:
+    """It goes where the run goes, whose probe is the other side; 2e-6 m is the single precision of the bodies."""
+    scene = SCENES / "payload_pendulum.toml"
+    run = lariat.run(scene, set={"duration": 0.5}, progress=False)
+    world = lariat.load(scene)
+    crate, hook = world.body("crate"), run.probes["hook"]
+    while world.time < 0.5 - 0.5 * world.dt:
+        world.step()
+    assert crate.translation == pytest.approx(run.probes["crate"].position[-1], abs=5e-6)
+    assert world.attachment("hook").force == pytest.approx(hook.force[-1], rel=1e-3)
+    assert world.cable("sling").name == "sling" and world.cable("sling").time == pytest.approx(0.5)
+    for call, error in (
+        (lambda: world.body("hook"), errors.NoBodyError),
+        (lambda: world.cable("crate"), errors.NoCableError),
+        (lambda: world.attachment("anchor"), errors.NoAttachmentError),
+        (lambda: world.sheave("crate"), errors.NoSheaveError),
+    ):
+        with pytest.raises(error, match="there are: "):
+            call()
+    world.detach("hook")
+    before = crate.linvel
+    world.step()
+    assert crate.linvel - before == pytest.approx([0, -9.81 * world.dt, 0], abs=1e-4)
+    again = lariat.World.restore(world.snapshot())
+    again.step()
+    world.step()
+    assert (again.body("crate").translation == crate.translation).all()
+
+
+def test_a_loaded_scene_drives_its_kinematic_bodies_and_leaves_the_others() -> None:
+    def body(name: str, **keys: object) -> dict[str, object]:
+        return {"name": name, "kind": "kinematic", "shape": {"ball": 0.1}, **keys}
+
+    bodies = [body("trolley", path=[[0, 0, 0, 0], [1, 2, 0, 0]]), body("hand", position=[2.0, 5.0, 0.0])]
+    attachments = [{"cable": "rope", "at": "start", "body": "trolley"}]
+    world = lariat.load({**ROPE, "dt": 0.1, "engine": "rapier", "body": bodies, "attachment": attachments})
+    for k in range(5):
+        world.body("hand").set_next_kinematic_translation([2.0, 5.0, 0.1 * (k + 1)])
+        world.step()
+    assert world.body("trolley").translation == pytest.approx([1.0, 0, 0], abs=1e-6)
+    assert world.body("hand").translation == pytest.approx([2.0, 5.0, 0.5], abs=1e-6)
+    assert world.cable("rope").sample(0.0).position == pytest.approx([1.0, 0, 0], abs=1e-5)
+
+
+def test_a_timed_cut_is_for_the_program_that_steps() -> None:
+    cable = {**ROPE["cable"][0], "break": {"time": 0.05, "at": 1.0}}  # type: ignore[index]
+    with pytest.raises(errors.TimedCutError) as error:
+        lariat.load({**ROPE, "cable": [cable]})
+    assert error.value.__dict__["cable"] == "rope"

@@ -167,6 +167,14 @@ pub enum Error {
         /// Why.
         problem: String,
     },
+    /// A cable that the scene cuts at a time, in a world that another program steps.
+    #[error(
+        "cable {cable:?} is cut at a time, which is for the program that steps the world: leave the cut out of the scene"
+    )]
+    TimedCut {
+        /// Name of the cable.
+        cable: String,
+    },
     /// A folder or file that cannot be created before the run begins.
     #[error("cannot write to {}: {source}", path.display())]
     Output {
@@ -279,6 +287,7 @@ impl Error {
             | Error::Busy { .. }
             | Error::InTheWay { .. }
             | Error::State { .. }
+            | Error::TimedCut { .. }
             | Error::Output { .. } => 2,
             Error::Study { .. }
             | Error::Write { .. }

@@ -275,7 +275,7 @@ fn an_error_below_the_precision_is_refused_before_anything_is_written() {
         refused(&scene, error);
     }
     let mut far = scene.clone();
-    far.bodies[0].position.x += 2000.0;
+    far.bodies[0].course.position.x += 2000.0;
     assert!(refused(&far, 1e-3) > 1e-2);
     refused(&read("falling_pendulum", &[], Purpose::Run), 1e-9);
     assert!(!out.exists());

@@ -31,7 +31,7 @@ from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, Gra
 from lariat.errors import Error
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
 from lariat.reel import Reel
-from lariat.scenes import Probe, Run, import_mjcf, keys, rules, run, statics
+from lariat.scenes import Probe, Run, import_mjcf, keys, load, rules, run, statics
 from lariat.sweeps import Sweep, sweep
 
 __all__ = [
@@ -75,6 +75,7 @@ __all__ = [
     "import_mjcf",
     "integrators",
     "keys",
+    "load",
     "recommended_elements",
     "results",
     "rope_kinds",

@@ -5,7 +5,7 @@ from typing import Any, Literal, final, overload
 from numpy.typing import ArrayLike
 from typing_extensions import Self
 
-from lariat.bodies import ColliderBuilder, RigidBodyBuilder, RigidBodySet
+from lariat.bodies import ColliderBuilder, RigidBody, RigidBodyBuilder, RigidBodySet
 from lariat.contact import Obstacle
 from lariat.effects import Contact, Damping, Effects
 from lariat.joints import ImpulseJointSet, MultibodyJointSet
@@ -572,6 +572,12 @@ class World:
     def cables(self) -> list[Cable]:
         """All cables."""
 
+    def cable(self, name: str) -> Cable:
+        """Returns the first cable of this name. Raises NoCableError, with the names that there are."""
+
+    def body(self, name: str) -> RigidBody:
+        """Returns the body that the scene of :func:`lariat.load` calls so. Raises NoBodyError, with the names that there are."""
+
     def remove_cable(self, cable: Cable) -> Cable:
         """Removes a cable with its attachments, and returns it by itself. Raises NoCableError, OtherWorldError."""
 
@@ -616,11 +622,11 @@ class World:
         cable as it was laid that of the drawing. Returns the number of the attachment. Raises GapTooLongError, AlreadyAttachedError,
         NoBodyError, NoCableError, OutOfRangeError."""
 
-    def detach(self, attachment: int) -> None:
-        """Ends an attachment. Raises NoAttachmentError."""
+    def detach(self, attachment: int | str) -> None:
+        """Ends an attachment, by its number or its name in the scene. Raises NoAttachmentError."""
 
-    def attachment(self, attachment: int) -> Attachment:
-        """Returns what the cable does to the body, after the last step. Raises NoAttachmentError."""
+    def attachment(self, attachment: int | str) -> Attachment:
+        """Returns what the cable does to the body, after the last step; of an attachment by its number, or its name in the scene. Raises NoAttachmentError."""
 
     def join(self, first: Cable, at: Place, second: Cable, second_at: Place, *, gap: float | None = 1e-3) -> int:
         """Ties a point of a cable to a point of another, like a massless shackle; ``gap``: the largest distance in m that is closed, None:
@@ -671,11 +677,11 @@ class World:
     def parts(self, cable: Cable) -> list[Cable]:
         """Returns the parts of a cable that runs over sheaves along it, from start to end. Raises NoCableError."""
 
-    def remove_sheave(self, sheave: int) -> None:
+    def remove_sheave(self, sheave: int | str) -> None:
         """Ends a sheave: what is on its sides stays there. Raises NoSheaveError."""
 
-    def sheave(self, sheave: int) -> SheaveReading:
-        """Returns what a sheave did so far. Raises NoSheaveError."""
+    def sheave(self, sheave: int | str) -> SheaveReading:
+        """Returns what a sheave did so far, by its number or its name in the scene. Raises NoSheaveError."""
 
     def add_drum(
         self, cable: Cable, at: Place, body: Handle, axis: ArrayLike, radius: float, *, stock: float | None = None, inertia: float = 0.0
@@ -749,6 +755,7 @@ class Recorded:
     def usd(self) -> str: ...
 
 def import_mjcf(file: str, text: str) -> str: ...
+def load_scene(file: str, text: str, overrides: list[str]) -> tuple[World, list[str]]: ...
 def run_command(arguments: list[str]) -> int: ...
 def scene_keys(path: str | None) -> str: ...
 def scene_rules() -> str: ...

@@ -321,6 +321,22 @@ class NotBuiltError(Error, ValueError):
     """A part of the scene format that this version does not compute: key."""
 
 
+class TimedCutError(Error, ValueError):
+    """A scene that cuts a cable at a time, given to ``load``: cable."""
+
+
+class TooLargeError(Error, ValueError):
+    """A scene that would need more memory or disk than anybody means."""
+
+
+class ErrorTooSmallError(Error, ValueError):
+    """An ``error`` that cannot be proven in a scene."""
+
+
+class StudyError(Error):
+    """Runs that cannot be compared, so that an ``error`` cannot be proven."""
+
+
 class SyntaxError(Error, ValueError):  # noqa: A001
     """A file that is not TOML."""
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lariat import _lariat
+from lariat._lariat import World
 from lariat.errors import ReadError, ResultWarning
 
 Array = NDArray[np.float64]
@@ -250,6 +251,24 @@ def statics(
     Raises ``NoEquilibriumError`` if there is none, and as ``run``.
     """
     return _collect(scene, set, True, False, error)
+
+
+def load(scene: SceneLike, *, set: Mapping[str, Any] | None = None) -> World:  # noqa: A002
+    """Returns the world of a scene, brought to its start as by ``run``, to be stepped, read and changed by a program.
+
+    ``world.step()`` advances it by the ``dt`` of the scene. ``world.cable("sling")``, ``world.body("crate")`` and
+    ``world.attachment("hook")`` find what the scene calls so. Kinematic bodies follow their ``path`` or velocity, and loads
+    act, as in a run; a kinematic body without them goes where ``set_next_kinematic_translation`` sends it, and a body that the
+    scene loads takes impulses, but no other forces. Probes and ``duration`` are for runs. ``set`` overrides keys, as of ``run``.
+
+    What the start tells, a line for each kind, goes through Python's ``warnings`` as ``errors.ResultWarning``.
+
+    Raises ``SceneError``, the errors of the mechanics, and ``TimedCutError`` for a cable that the scene cuts at a time.
+    """
+    world, told = _lariat.load_scene(*source(scene), overrides(set))
+    for line in told:
+        warnings.warn(line, ResultWarning, stacklevel=2)
+    return world
 
 
 def keys(path: str | None = None) -> str:

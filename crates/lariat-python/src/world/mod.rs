@@ -1,4 +1,4 @@
-//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `events`, `joints`, `queries`, `ropes` and `wheels` hold what their names say.
+//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `events`, `joints`, `queries`, `ropes`, `scene` and `wheels` hold what their names say.
 
 mod bodies;
 mod colliders;
@@ -6,7 +6,10 @@ mod events;
 mod joints;
 mod queries;
 mod ropes;
+mod scene;
 mod wheels;
+
+pub use scene::load_scene;
 
 use crate::cable::Cable;
 use crate::convert::{Place, Vector, result, vector};
@@ -21,8 +24,10 @@ use lariat_rapier::{
     AttachmentHandle, AttachmentKind, AttachmentOptions, CableHandle, CableSet, Error, Gap, JunctionHandle,
     SheaveHandle,
 };
+use lariat_scene::run::Script;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use scene::{Names, Which};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -41,6 +46,10 @@ pub struct Contents {
     pub sheaves: Vec<SheaveHandle>,
     /// Junctions in the order of their numbers.
     pub junctions: Vec<JunctionHandle>,
+    /// What a scene calls its parts; empty without a scene.
+    names: Names,
+    /// Paths and loads of a scene.
+    script: Script,
 }
 
 /// A world of rigid bodies and cables.
@@ -63,10 +72,6 @@ fn numbered<T: Copy>(all: &[T], number: usize, kind: &str, error: &'static str) 
 }
 
 impl Contents {
-    fn attachment(&self, number: usize) -> Result<AttachmentHandle, Raise> {
-        numbered(&self.attachments, number, "attachment", "NoAttachmentError")
-    }
-
     fn add_attachment(&mut self, handle: AttachmentHandle) -> usize {
         self.attachments.push(handle);
         self.attachments.len() - 1
@@ -110,15 +115,19 @@ impl World {
         };
         set.settings.warn_level = warn_level.map(level).transpose()?;
         let (bodies, attachments, sheaves, junctions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Ok(World(Shared::new(Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions })))
+        let (names, script) = Default::default();
+        let contents = Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions, names, script };
+        Ok(World(Shared::new(contents)))
     }
 
     /// Advances bodies and cables by `dt`.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
-        let outcome = self.0.compute(py, |Contents { world, set, time, .. }| {
+        let outcome = self.0.compute(py, |Contents { world, set, time, script, .. }| {
+            let end = *time + f64::from(world.integration_parameters.dt);
+            script.set(world, *time, end);
             let outcome = set.step(world);
             if matches!(outcome, Ok(()) | Err(Error::StepRefused { .. })) {
-                *time += f64::from(world.integration_parameters.dt);
+                *time = end;
             }
             outcome
         });
@@ -182,18 +191,18 @@ impl World {
     }
 
     /// Ends an attachment.
-    fn detach(&self, py: Python<'_>, attachment: usize) -> PyResult<()> {
+    fn detach(&self, py: Python<'_>, attachment: Which) -> PyResult<()> {
         let outcome = self.0.compute(py, |contents| {
-            let handle = contents.attachment(attachment)?;
+            let handle = contents.attachment(&attachment)?;
             contents.set.detach(&mut contents.world, handle).map_err(Raise::from)
         });
         outcome.map_err(raise)
     }
 
     /// What a cable does to its body at an attachment, after the last step.
-    fn attachment<'py>(&self, py: Python<'py>, attachment: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn attachment<'py>(&self, py: Python<'py>, attachment: Which) -> PyResult<Bound<'py, PyAny>> {
         let reading = self.0.with(py, |contents| {
-            let handle = contents.attachment(attachment)?;
+            let handle = contents.attachment(&attachment)?;
             contents.set.attachment(handle).map(|attachment| *attachment.reading()).map_err(Raise::from)
         });
         let reading = reading.map_err(raise)?;

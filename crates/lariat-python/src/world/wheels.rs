@@ -1,19 +1,14 @@
 //! Sheaves and drums of a world.
 
 use super::bodies::{Handle, invalid, not_negative, positive, single};
-use super::{Contents, World, numbered};
+use super::scene::Which;
+use super::{Contents, World};
 use crate::cable::Cable;
 use crate::convert::{Place, Vector, result};
 use crate::error::{Raise, raise};
 use lariat_ancf::Reel;
-use lariat_rapier::{Drum, SheaveHandle, SheaveOptions};
+use lariat_rapier::{Drum, SheaveOptions};
 use pyo3::prelude::*;
-
-impl Contents {
-    fn sheave(&self, number: usize) -> Result<SheaveHandle, Raise> {
-        numbered(&self.sheaves, number, "sheave", "NoSheaveError")
-    }
-}
 
 /// Checks the numbers of a sheave.
 fn options(inertia: f64, friction: f64, turns: f64, brake: f64) -> PyResult<SheaveOptions> {
@@ -87,18 +82,18 @@ impl World {
     }
 
     /// Ends a sheave: what is on its sides stays there.
-    fn remove_sheave(&self, py: Python<'_>, sheave: usize) -> PyResult<()> {
+    fn remove_sheave(&self, py: Python<'_>, sheave: Which) -> PyResult<()> {
         let removed = self.0.compute(py, |contents| {
-            let handle = contents.sheave(sheave)?;
+            let handle = contents.sheave(&sheave)?;
             contents.set.remove_sheave(handle).map_err(Raise::from)
         });
         removed.map_err(raise)
     }
 
     /// What a sheave did so far.
-    fn sheave<'py>(&self, py: Python<'py>, sheave: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn sheave<'py>(&self, py: Python<'py>, sheave: Which) -> PyResult<Bound<'py, PyAny>> {
         let reading = self.0.with(py, |contents| {
-            let handle = contents.sheave(sheave)?;
+            let handle = contents.sheave(&sheave)?;
             let sheave = contents.set.sheave(handle).map_err(Raise::from)?;
             Ok::<_, Raise>((sheave.passed(), sheave.force(), sheave.lost()))
         });

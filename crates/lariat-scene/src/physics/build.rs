@@ -108,8 +108,9 @@ pub fn insert(world: &mut PhysicsWorld, body: &BodyScene) -> Result<RigidBodyHan
 
 /// Sets a dynamic body in motion as the scene says.
 pub fn set_in_motion(inserted: &mut RapierBody, body: &BodyScene) {
+    let course = &body.course;
     // Rapier's velocity is that of the centre of mass
     let arm = rotation(*inserted.rotation()) * vector(inserted.local_center_of_mass());
-    inserted.set_linvel(to_vector(&(body.velocity + body.angular_velocity.cross(&arm))), true);
-    inserted.set_angvel(to_vector(&body.angular_velocity), true);
+    inserted.set_linvel(to_vector(&(course.velocity + course.angular_velocity.cross(&arm))), true);
+    inserted.set_angvel(to_vector(&course.angular_velocity), true);
 }

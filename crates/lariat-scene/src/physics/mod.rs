@@ -1,21 +1,24 @@
 //! The Rapier side of a scene: its bodies, and its cables once they are attached to them.
 //!
 //! Bodies never sleep. One step goes to the next time at which the run stops. A step shorter than the host step is split into
-//! proportionally fewer Rapier steps, so that probes between host times do not shorten the Rapier steps much. Loads on bodies have
-//! their value at the middle of the step, and act at the point of the body where it is at the beginning of the step.
+//! proportionally fewer Rapier steps, so that probes between host times do not shorten the Rapier steps much.
 
 mod build;
 mod energy;
 mod explain;
 mod joints;
 mod overlap;
+mod parts;
 mod reading;
+mod script;
 mod statics;
 mod warnings;
 
 pub use build::collider;
 pub use energy::BodyTerms;
+pub use parts::Parts;
 pub use reading::BodyState;
+pub use script::Script;
 pub use statics::Settled;
 
 use crate::error::Error;
@@ -24,7 +27,7 @@ use crate::scene::{Scene, SheaveScene};
 use crate::warning::Warning;
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
-use lariat_rapier::convert::{to_pose, to_vector};
+use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
@@ -55,8 +58,8 @@ pub struct Physics {
     held_by: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Rapier steps per host step.
     rapier_steps: u32,
-    /// Whether loads on bodies act in full from the start, whatever their ramps.
-    full_loads: bool,
+    /// What moves and loads the bodies.
+    script: Script,
     /// Sum of all steps done, in s.
     reached: f64,
     /// Largest gap so far in m.
@@ -94,7 +97,7 @@ impl Clone for Physics {
             sheaves: self.sheaves.clone(),
             held_by: self.held_by.clone(),
             rapier_steps: self.rapier_steps,
-            full_loads: self.full_loads,
+            script: self.script.clone(),
             reached: self.reached,
             max_gap: self.max_gap,
             passed: self.passed.clone(),
@@ -130,6 +133,7 @@ impl Physics {
         let mut cables = CableSet::new();
         cables.settings.watch = false;
         let (rapier_steps, load_work) = (RAPIER_STEPS, vec![0.0; bodies.len()]);
+        let script = Script::new(scene, &bodies);
         Ok(Physics {
             world,
             bodies,
@@ -140,7 +144,7 @@ impl Physics {
             sheaves: Vec::new(),
             held_by: Vec::new(),
             rapier_steps,
-            full_loads: false,
+            script,
             reached: 0.0,
             max_gap: 0.0,
             passed: Vec::new(),
@@ -258,8 +262,7 @@ impl Physics {
     /// # Errors
     /// [`Error::Mechanics`] names the cable and the time, [`Error::Body`] the body.
     pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
-        self.drive(scene, to);
-        self.load(scene, from, to);
+        self.script.set(&mut self.world, from, to);
         // steps rounded to single precision add up to another time: the next step compensates for the last
         let dt = (to - self.reached) as Real;
         if dt <= 0.0 {
@@ -283,33 +286,6 @@ impl Physics {
                 let problem = "its position or velocity is not finite".to_string();
                 Err(Error::Body { time: to, body: scene.bodies[i].name.clone(), problem })
             }
-        }
-    }
-
-    /// Sets the positions of kinematic bodies at a time.
-    fn drive(&mut self, scene: &Scene, time: f64) {
-        for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
-            if body.kind == BodyKind::Kinematic {
-                let (position, rotation) = body.pose(time);
-                self.world.bodies[handle].set_next_kinematic_position(to_pose(&position, &rotation));
-            }
-        }
-    }
-
-    /// Sets the loads on bodies for a step.
-    fn load(&mut self, scene: &Scene, from: f64, to: f64) {
-        for load in &scene.body_loads {
-            let body = &mut self.world.bodies[self.bodies[load.body]];
-            body.reset_forces(false);
-            body.reset_torques(false);
-        }
-        for load in &scene.body_loads {
-            let body = &mut self.world.bodies[self.bodies[load.body]];
-            let share =
-                if load.ramp > 0.0 && !self.full_loads { (0.5 * (from + to) / load.ramp).min(1.0) } else { 1.0 };
-            let point = reading::state(body).position + reading::state(body).rotation * load.point;
-            body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), true);
-            body.add_torque(to_vector(&(load.moment * share)), true);
         }
     }
 
@@ -378,7 +354,11 @@ impl Physics {
         let body = &scene.bodies[index];
         if body.kind == BodyKind::Kinematic {
             // that of Rapier is the mean over its last step
-            return BodyState { velocity: body.velocity(time), angular_velocity: body.angular_velocity, ..state };
+            return BodyState {
+                velocity: body.course.velocity(time),
+                angular_velocity: body.course.angular_velocity,
+                ..state
+            };
         }
         state
     }

@@ -28,7 +28,7 @@ impl Physics {
     /// # Errors
     /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body with a joint or a contact.
     pub fn settle(&mut self, scene: &Scene, fully: bool) -> Result<Settled, Error> {
-        self.full_loads = fully;
+        self.script.full_loads = fully;
         let acting = scene.body_loads.iter().filter(|load| fully || load.ramp == 0.0);
         let forces: Vec<BodyForce> = acting
             .clone()
@@ -65,10 +65,12 @@ impl Physics {
     pub fn set_off(&mut self, scene: &Scene) -> Result<(), Error> {
         for (i, &handle) in self.handles.iter().enumerate() {
             let cable = self.cables.get_mut(handle).map_err(|source| Error::Coupling { time: 0.0, source })?;
-            scene.set_off(cable, i, !self.full_loads)?;
+            scene.set_off(cable, i, !self.script.full_loads)?;
         }
         for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
-            if body.kind == BodyKind::Dynamic && (body.velocity, body.angular_velocity) != Default::default() {
+            if body.kind == BodyKind::Dynamic
+                && (body.course.velocity, body.course.angular_velocity) != Default::default()
+            {
                 build::set_in_motion(&mut self.world.bodies[handle], body);
             }
         }

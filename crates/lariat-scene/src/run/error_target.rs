@@ -161,7 +161,7 @@ fn described(error: &StudyError<Stopped>) -> String {
 
 /// Returns whether a cable is set in motion in no time: at the start, or where the path of a body that holds it has a corner.
 fn velocities_jump(scene: &Scene, done: &Done) -> bool {
-    let corners = |body: &BodyScene| body.path.iter().any(|(time, _)| 0.0 < *time && *time < scene.duration);
+    let corners = |body: &BodyScene| body.course.path.iter().any(|(time, _)| 0.0 < *time && *time < scene.duration);
     let bodies = scene.attachments.iter().filter_map(|attachment| attachment.body);
     done.world.velocities_jump || bodies.into_iter().any(|body| corners(&scene.bodies[body]))
 }
@@ -171,7 +171,9 @@ fn check(scene: &Scene, error: f64) -> Result<(), Error> {
     let longest = scene.cables.iter().fold(0.0, |longest: f64, cable| longest.max(cable.length));
     let mut least = (LEAST * longest, "double precision");
     if scene.engine == Engine::Rapier {
-        let path = |body: &BodyScene| body.path.iter().map(|(_, p)| *p).chain([body.position]).collect::<Vec<_>>();
+        let path = |body: &BodyScene| {
+            body.course.path.iter().map(|(_, p)| *p).chain([body.course.position]).collect::<Vec<_>>()
+        };
         let bodies = scene.bodies.iter().flat_map(path);
         let cables = scene.cables.iter().flat_map(|cable| cable.points.iter().copied());
         let far = bodies.chain(cables).fold(1.0, |far: f64, p: Vector3<f64>| far.max(p.norm()));

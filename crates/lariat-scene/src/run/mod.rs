@@ -37,6 +37,7 @@ mod balance;
 mod error_target;
 mod folder;
 mod output;
+mod parts;
 mod pieces;
 mod probe;
 mod readings;
@@ -51,6 +52,7 @@ mod watch;
 mod wheels;
 mod world;
 
+pub use crate::physics::{Parts, Script};
 pub use error_target::ErrorClaim;
 pub use lariat_ancf::warning::EnergyBalance;
 pub use pieces::{Parted, Piece};

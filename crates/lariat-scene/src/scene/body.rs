@@ -6,7 +6,7 @@ use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Kind, NOT_NEGATIVE, POSITIVE, UNIT, choice, table};
 use lariat_ancf::Vector3;
 use nalgebra::UnitQuaternion;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Largest distance of `position` from the start of a path, in m.
@@ -121,20 +121,27 @@ pub struct BodyScene {
     pub mass: Option<BodyMass>,
     /// Moments of inertia in kg m^2 about the axes of the body through its centre of mass; `None` = those of the shape.
     pub inertia: Option<Vector3<f64>>,
-    /// Origin at t = 0 in m.
-    pub position: Vector3<f64>,
-    /// Rotation at t = 0.
-    pub rotation: UnitQuaternion<f64>,
+    /// Where it is at t = 0, and where it goes by itself.
+    pub course: Course,
     /// Angle of the rotation in rad, as written.
     pub angle: f64,
-    /// Velocity of the origin in m/s.
-    pub velocity: Vector3<f64>,
-    /// Angular velocity in rad/s, world axes.
-    pub angular_velocity: Vector3<f64>,
     /// Coefficient of friction; `None` = Rapier's.
     pub friction: Option<f64>,
     /// Coefficient of restitution.
     pub restitution: f64,
+}
+
+/// Where a body starts, and where it goes if nothing pulls at it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Course {
+    /// Origin at t = 0 in m.
+    pub position: Vector3<f64>,
+    /// Rotation at t = 0.
+    pub rotation: UnitQuaternion<f64>,
+    /// Velocity of the origin in m/s.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity in rad/s, world axes.
+    pub angular_velocity: Vector3<f64>,
     /// Positions at times, in s and m, by ascending time. Empty for none.
     pub path: Vec<(f64, Vector3<f64>)>,
 }
@@ -166,23 +173,25 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
         name: row.name,
         kind: row.kind,
         shape,
-        position: row.position.unwrap_or_default(),
-        rotation: UnitQuaternion::from_scaled_axis(row.rotation),
+        course: Course {
+            position: row.position.unwrap_or_default(),
+            rotation: UnitQuaternion::from_scaled_axis(row.rotation),
+            velocity: row.velocity.unwrap_or_default(),
+            angular_velocity: row.angular_velocity.unwrap_or_default(),
+            path: path(doc, &at.key("path"), row.path.as_deref().unwrap_or_default())?,
+        },
         angle: row.rotation.norm(),
-        velocity: row.velocity.unwrap_or_default(),
-        angular_velocity: row.angular_velocity.unwrap_or_default(),
         friction: row.friction,
         restitution: row.restitution,
-        path: path(doc, &at.key("path"), row.path.as_deref().unwrap_or_default())?,
     };
-    if !body.path.is_empty() {
+    if !body.course.path.is_empty() {
         let start = body.pose(0.0).0;
         if let Some(position) = row.position.filter(|position| (start - position).norm() > PATH_GAP) {
             let problem = format!("{:?} is not where the path is at t = 0", position.as_slice());
             let accepted = format!("{:?}, or no position", start.as_slice());
             return Err(doc.error_accepting(&at.key("position"), Problem::Conflict(problem), accepted));
         }
-        body.position = start;
+        body.course.position = start;
     }
     Ok(body)
 }
@@ -243,17 +252,7 @@ fn path(doc: &Document<'_>, at: &KeyPath, rows: &[[f64; 4]]) -> Result<Vec<(f64,
 impl BodyScene {
     /// Returns origin (m) and rotation at a time (s): for a dynamic body those at t = 0.
     pub fn pose(&self, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
-        if self.kind != BodyKind::Kinematic {
-            return (self.position, self.rotation);
-        }
-        let position =
-            if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
-        (position, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
-    }
-
-    /// Returns the velocity of the origin (m/s) at a time (s); at a row of the path that of the part which begins there.
-    pub fn velocity(&self, time: f64) -> Vector3<f64> {
-        if self.path.is_empty() { self.velocity } else { along(&self.path, time).1 }
+        if self.kind == BodyKind::Kinematic { self.course.pose(time) } else { self.course.pose(0.0) }
     }
 
     /// Returns a point of the body, in its axes, as a point of the world at t = 0.
@@ -271,6 +270,25 @@ impl BodyScene {
     pub fn to_body(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let (position, rotation) = self.pose(0.0);
         rotation.inverse() * (point - position)
+    }
+}
+
+impl Course {
+    /// Returns origin (m) and rotation at a time (s).
+    pub fn pose(&self, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
+        let position =
+            if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
+        (position, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
+    }
+
+    /// Returns whether it stays where it starts.
+    pub fn is_at_rest(&self) -> bool {
+        self.path.is_empty() && (self.velocity, self.angular_velocity) == Default::default()
+    }
+
+    /// Returns the velocity of the origin (m/s) at a time (s); at a row of the path that of the part which begins there.
+    pub fn velocity(&self, time: f64) -> Vector3<f64> {
+        if self.path.is_empty() { self.velocity } else { along(&self.path, time).1 }
     }
 }
 
@@ -316,14 +334,16 @@ mod tests {
             shape: BodyShape::None,
             mass: None,
             inertia: None,
-            position: Vector3::new(1.0, 2.0, 3.0),
-            rotation: UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2)),
+            course: Course {
+                position: Vector3::new(1.0, 2.0, 3.0),
+                rotation: UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2)),
+                velocity: Vector3::zeros(),
+                angular_velocity: Vector3::zeros(),
+                path: Vec::new(),
+            },
             angle: std::f64::consts::FRAC_PI_2,
-            velocity: Vector3::zeros(),
-            angular_velocity: Vector3::zeros(),
             friction: None,
             restitution: 0.0,
-            path: Vec::new(),
         };
         let point = Vector3::new(1.0, 0.0, 0.0);
         let world = body.to_world(&point);

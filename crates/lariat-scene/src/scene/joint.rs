@@ -132,7 +132,7 @@ fn check_link(doc: &Document<'_>, scene: &Scene, at: &KeyPath, joint: &JointScen
         here = before(body).and_then(|j| j.to);
     }
     let link = &scene.bodies[joint.body];
-    if link.velocity.norm() + link.angular_velocity.norm() > 0.0 {
+    if link.course.velocity.norm() + link.course.angular_velocity.norm() > 0.0 {
         let problem = format!("body {:?} has a velocity, and links of a multibody start at rest", link.name);
         return invalid("body", problem, "a body without velocity and angular_velocity");
     }

@@ -7,6 +7,7 @@ use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, VECTOR, table};
 use lariat_ancf::{Cable, PointLoad, Vector3};
+use serde::{Deserialize, Serialize};
 
 table! {
     /// A point force or moment with a constant direction in the world, on a cable or on a dynamic body.
@@ -42,7 +43,7 @@ pub struct LoadScene {
 }
 
 /// A checked load on a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyLoadScene {
     /// Position of the body in [`Scene::bodies`].
     pub body: usize,

@@ -64,22 +64,22 @@ impl Scene {
                 _ => f64::from(u8::from(on_it().next().is_none())),
             };
             // where its horizontal velocity may take it
-            let across = body.velocity - down * body.velocity.dot(&down);
+            let across = body.course.velocity - down * body.course.velocity.dot(&down);
             let reach = radius(body) + across.norm() * self.duration;
             let stops = |(j, other): (usize, &BodyScene)| {
                 if j == i || !held[j] || matches!(body.shape, BodyShape::None) {
                     return false;
                 }
                 if let BodyShape::Plane(normal) = other.shape {
-                    return (other.rotation * normal).dot(&down) < 0.0;
+                    return (other.course.rotation * normal).dot(&down) < 0.0;
                 }
-                let way = other.position - body.position;
+                let way = other.course.position - body.course.position;
                 let fits = (way - down * way.dot(&down)).norm() <= reach + radius(other);
                 !matches!(other.shape, BodyShape::None) && fits && way.dot(&down) > -reach - radius(other)
             };
             let catches = |(cable, held): (&CableScene, &bool)| {
                 let centre = cable.points.iter().sum::<Vector3<f64>>() / cable.points.len() as f64;
-                let way = centre - body.position;
+                let way = centre - body.course.position;
                 let fits = (way - down * way.dot(&down)).norm() <= reach + cable.length;
                 *held && cable.effects.contact.is_some() && fits && way.dot(&down) > -reach - cable.length
             };
