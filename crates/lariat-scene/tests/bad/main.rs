@@ -6,7 +6,6 @@ mod cases;
 mod joints;
 mod junctions;
 
-use lariat_scene::run::World;
 use lariat_scene::{Error, Place, Problem, Purpose, Scene, SceneError};
 
 const GOOD: &str = "duration = 1.0\n[[cable]]\nname = \"sling\"\npoints = [[0, 0, 0], [2, 0, 0]]\nsection = { round = 0.01 }\n\
