@@ -13,12 +13,16 @@
 //! step. The end is checked: forces and moments balance at every node and at every body, no element
 //! is folded, and the matrix is positive definite; a saddle is left by a small displacement.
 //!
+//! [Joints](joint) between bodies are a potential of their multipliers, and [over sheaves](sheaves)
+//! material runs from one equilibrium to the next.
+//!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
 //! symmetric: the error falls linearly.
 //!
 //! # Validity
 //!
-//! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still,
+//! Loads on bodies that are constant in world axes. No drums that are bodies: one that is free to
+//! turn rests only where something else balances the pull. Cables touch obstacles that stand still,
 //! without friction; contact of the bodies, and of cables with them, must be known to the caller.
 //! Modes without stiffness, such as a turn about a rope, keep their place.
 //!
