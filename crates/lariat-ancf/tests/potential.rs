@@ -2,7 +2,7 @@
 
 use lariat_ancf::contact::{HalfSpace, Obstacle};
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{self, Island, PinConstraint, RigidBody};
+use lariat_ancf::island::{self, Island, Links, PinConstraint, RigidBody};
 use lariat_ancf::{
     At, Cable, CableBuilder, Contact, Effects, EquilibriumFailure, EquilibriumOptions, Error, Integrator, Method,
     PointLoad, Potential, Reel, Section, StepControl, Vector3,
@@ -100,7 +100,7 @@ fn springs_alone_hold_a_rope() {
     springs.iter().for_each(|(at, own)| alone.add_potential(*at, own.clone()).unwrap());
     let mut on_island = alone.clone();
     alone.equilibrium().unwrap();
-    island::equilibrium(&mut [&mut on_island], &mut [], &[], EquilibriumOptions::default()).unwrap();
+    island::equilibrium(&mut [&mut on_island], &mut [], Links::default(), EquilibriumOptions::default()).unwrap();
     for cable in [&alone, &on_island] {
         let pulls = springs.iter().map(|(at, own)| {
             let s = cable.arc_length(*at).unwrap();

@@ -124,11 +124,13 @@ pub enum Error {
     /// A motion by which bodies are to be moved that is not finite, or turns by no unit quaternion.
     #[error("bodies cannot be moved by what is not a finite displacement and a rotation")]
     MoveNotFinite,
-    /// A joint on a body whose equilibrium is asked for.
-    #[error("statics compute no joints, and body {body:?} has one: remove it, or step until the body rests")]
+    /// A joint on a body whose equilibrium is asked for, of a kind that statics do not compute.
+    #[error("no equilibrium of body {body:?} is computed: {reason}; step until the body rests")]
     JointInStatics {
         /// The body.
         body: RigidBodyHandle,
+        /// What of the joint.
+        reason: &'static str,
     },
     /// A contact of a body whose equilibrium is asked for, where it was or where it was moved.
     #[error("statics compute no contacts, and body {body:?} touches {}: step until it rests", name_of(.other))]

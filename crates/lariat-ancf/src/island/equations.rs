@@ -211,6 +211,9 @@ impl IslandEquations<'_, '_> {
             }
         }
         layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
+        if kind == MatrixKind::Step {
+            layout.joints.add_stiffness(scale, &layout.bodies, layout.pose(q), matrix);
+        }
         for (c, part) in layout.parts.iter().enumerate() {
             if kind == MatrixKind::Step {
                 for hold in &part.holds {

@@ -9,6 +9,7 @@ use super::coupling::CoupledInertia;
 use super::hold::{Hold, direction, vector};
 use super::pin::PinConstraint;
 use super::rotation::{exponential, spin};
+use super::statics::Joints;
 use crate::cable::Cable;
 use crate::scales::island::{CLOSING_SPEED, GAP_ROUNDING, REVERSED_COSINE, SHORTEST_CLOSING};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
@@ -72,6 +73,8 @@ pub(super) struct Layout {
     remaining: Vec<Vector3<f64>>,
     /// By pin, its velocity beyond that of the uniform motion of its body at both ends of the step.
     rates: Vec<[Vector3<f64>; 2]>,
+    /// Joints between the bodies, in statics alone: in motion an engine computes them.
+    pub joints: Joints,
     /// Offset of the bodies' coordinates.
     pub bodies_at: usize,
     /// Time in s at which the step began, and its duration in s.
@@ -191,6 +194,16 @@ impl Layout {
     /// Returns the attitude of body `i` at its coordinates `q`.
     pub fn attitude(&self, i: usize, q: &[f64]) -> UnitQuaternion<f64> {
         exponential(&vector(&q[3..])) * self.bodies[i].rotation
+    }
+
+    /// Returns, by body, its position and its rotation from the attitude that it is counted from,
+    /// at coordinates `q` of all.
+    pub fn pose<'a>(&self, q: &'a [f64]) -> impl Fn(usize) -> (Vector3<f64>, UnitQuaternion<f64>) + use<'a> {
+        let at = self.bodies_at;
+        move |body| {
+            let own = &q[at + 6 * body..];
+            (vector(own), exponential(&vector(&own[3..])))
+        }
     }
 
     /// Returns body `i` at its coordinates `q` and their rates `v`. Inlined, so that callers pay

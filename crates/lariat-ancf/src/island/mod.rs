@@ -69,5 +69,5 @@ pub use layout::closing_share;
 pub use pin::PinConstraint;
 pub use pin_accounts::PinAccount;
 pub use reel::{Drum, Sheave};
-pub use statics::equilibrium;
+pub use statics::{FREE, JointFrame, Links, StaticJoint, equilibrium};
 pub use step::Island;

@@ -38,6 +38,10 @@ impl Layout {
             stack(&vector(&k[at..]), &angular_acceleration(scale, &theta, &rate, &vector(&k[at + 3..])))
         };
         self.add_coupled_momenta(-1.0, acceleration, rhs);
+        self.joints.add_forces(scale, &self.bodies, self.pose(q), |body, load| {
+            let at = self.body_at(body);
+            rhs[at..at + 6].iter_mut().zip(load).for_each(|(row, x)| *row += x);
+        });
         self.pass_pinned_rows(q, rhs);
     }
 

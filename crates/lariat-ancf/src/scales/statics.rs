@@ -175,3 +175,23 @@ pub(crate) const SHAKE: f64 = 1e-3;
 
 /// Largest number of times that a saddle is left. Derived: as for a cable.
 pub(crate) const MAX_SHAKES: usize = 3;
+
+/// Stiffness of a joint in statics, as a multiple of the largest one of an element, and of all
+/// loads over the length. Unknown: the error of its multiplier falls by at least as much in each
+/// search.
+pub(crate) const JOINT_STIFFNESS: f64 = 10.0;
+
+/// Change of a multiplier of a joint over its stiffness, as a share of the length or in rad, below
+/// which it stays. Derived: a hundredth of [`AT_REST`].
+pub(crate) const JOINT_STAYS: f64 = 1e-10;
+
+/// Largest number of times that material runs over sheaves. Unknown: it bounds the cost.
+pub(crate) const MAX_PASSES: usize = 60;
+
+/// Largest length that runs over a sheave at a time, as a share of its shorter cable. Unknown: the
+/// search follows from one shape to the next.
+pub(crate) const MOST_PASSED: f64 = 0.1;
+
+/// Difference of the pulls at a sheave, as a multiple of the largest residual of an equilibrium.
+/// Unknown: each pull is as good as that.
+pub(crate) const PULLS: f64 = 10.0;

@@ -4,7 +4,7 @@
 //! potential energy. *Source.* Hand values and Newton's method on two forces and a moment, written here.
 
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{PinConstraint, RigidBody, equilibrium};
+use lariat_ancf::island::{Links, PinConstraint, RigidBody, equilibrium};
 use lariat_ancf::{
     At, Cable, CableBuilder, EquilibriumFailure, EquilibriumOptions, Error, PointLoad, Section, Vector3,
 };
@@ -38,7 +38,8 @@ fn solve(cables: &mut [Cable], bodies: &mut [RigidBody], pins: &[PinConstraint])
         }
     }
     let mut refs: Vec<&mut Cable> = cables.iter_mut().collect();
-    let report = equilibrium(&mut refs, bodies, pins, EquilibriumOptions::default()).unwrap();
+    let report =
+        equilibrium(&mut refs, bodies, Links { pins, ..Links::default() }, EquilibriumOptions::default()).unwrap();
     let size: f64 = bodies.iter().map(|b| b.force.norm()).sum();
     for (i, body) in bodies.iter().enumerate() {
         let (mut force, mut moment) = (body.force, body.torque);
@@ -246,8 +247,13 @@ fn an_island_that_nothing_holds_is_an_error() {
     cable.attach(At::End).unwrap();
     let before = cable.snapshot().clone();
     let mut bodies = [body(5.0, [0.0, -1.0, 0.0])];
-    let error = equilibrium(&mut [&mut cable], &mut bodies, &[pin(0, 5, 0, [0.0; 3])], EquilibriumOptions::default())
-        .unwrap_err();
+    let error = equilibrium(
+        &mut [&mut cable],
+        &mut bodies,
+        Links { pins: &[pin(0, 5, 0, [0.0; 3])], ..Links::default() },
+        EquilibriumOptions::default(),
+    )
+    .unwrap_err();
     let Error::NoEquilibrium { failure, residual, .. } = error else { panic!("{error}") };
     assert_eq!(failure, EquilibriumFailure::NotHeld);
     assert!((residual - 5.6 * G).abs() < 1e-9 && *cable.snapshot() == before, "{residual}");

@@ -1,7 +1,7 @@
 //! Reels on bodies that move freely: the stock rides with them.
 
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{Island, PinConstraint, RigidBody};
+use lariat_ancf::island::{Island, Links, PinConstraint, RigidBody};
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;
 
@@ -231,7 +231,13 @@ fn a_hanging_winch_weighs_its_stock() {
     let (mut bodies, node) = ([body], cable.nodes() - 1);
     let pins = [PinConstraint { cable: 0, node, body: 0, anchor: Vector3::zeros(), direction: None }];
     let options = lariat_ancf::EquilibriumOptions::default();
-    lariat_ancf::island::equilibrium(&mut [&mut cable], &mut bodies, &pins, options).unwrap();
+    lariat_ancf::island::equilibrium(
+        &mut [&mut cable],
+        &mut bodies,
+        Links { pins: &pins, ..Links::default() },
+        options,
+    )
+    .unwrap();
     let weight = (mass + density * stock) * gravity;
     let pull = |cable: &Cable| cable.sample(0.0).unwrap().tension;
     println!("{} N of {weight} N", pull(&cable));

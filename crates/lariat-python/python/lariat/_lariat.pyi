@@ -695,7 +695,7 @@ class World:
         """Ends the drum at an end of a cable: what is out stays. Returns whether there was one. Raises NoCableError."""
 
     def equilibrium(self) -> WorldEquilibrium:
-        """Moves cables and the bodies on them to static equilibrium; true if all is stable. Cables with contact lie on fixed and kinematic
+        """Moves cables and the bodies on them, as their joints allow, to static equilibrium; true if all is stable. Cables with contact lie on fixed and kinematic
         colliders, without friction. Raises NoEquilibriumError, JointInStaticsError, ContactInStaticsError, CableTouchesInStaticsError;
         all is then as before."""
 

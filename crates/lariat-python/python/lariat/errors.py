@@ -282,7 +282,7 @@ class LinkLostError(Error):
 
 
 class JointInStaticsError(Error):
-    """A joint on a body whose equilibrium is asked for: body."""
+    """A joint on a body whose equilibrium is asked for, of a kind that statics do not compute: body."""
 
 
 class ContactInStaticsError(Error):

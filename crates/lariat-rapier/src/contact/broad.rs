@@ -174,19 +174,19 @@ impl Finder {
     }
 
     /// Gives a cable whose statics are solved the colliders of all bodies that stay where they are
-    /// as obstacles: fixed, kinematic, and dynamic ones that no cable is attached to.
+    /// as obstacles: fixed, kinematic, and dynamic ones that do not move with cables.
     pub fn gather_for_statics(
         &mut self,
         contents: &Contents,
         world: &PhysicsWorld,
-        index: usize,
-        cable: &mut Cable,
+        (index, cable): (usize, &mut Cable),
+        moving: &[RigidBodyHandle],
     ) -> Result<(), lariat_ancf::Error> {
         let mut obstacles = Vec::new();
         let slot = contents.cables.get(index).filter(|_| cable.effects().contact.is_some());
         for (found, collider) in slot.iter().flat_map(|_| world.colliders.iter()) {
             let touched = slot.and_then(|slot| self.touched(world, CableHandle(index as u32), &slot.rules, found));
-            if touched.is_some() && !moves(contents, world, collider) {
+            if touched.is_some() && !collider.parent().is_some_and(|body| moving.contains(&body)) {
                 let except = |surface: &dyn Surface| {
                     let depth = |anchor: &Vector3<f64>| -surface.nearest(anchor).distance;
                     held_pieces(contents, CableHandle(index as u32), collider, cable.contact_radius(), depth)
@@ -335,12 +335,6 @@ pub(crate) fn held_pieces(
         [a.arc_length - reach, a.arc_length + reach]
     })
     .collect()
-}
-
-/// Returns whether the body of a collider moves with its cables in statics.
-fn moves(contents: &Contents, world: &PhysicsWorld, collider: &Collider) -> bool {
-    let attached = |body| contents.attachments.values().any(|a| a.body == body);
-    collider.parent().is_some_and(|body| crate::body::is_integrated(world, body) && attached(body))
 }
 
 /// Returns the largest speed in m/s of a point of a collider of a dynamic body that is awake.

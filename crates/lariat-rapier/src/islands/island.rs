@@ -45,6 +45,28 @@ pub(crate) struct Island {
 }
 
 impl Island {
+    /// Adds the cables and members of another.
+    pub fn join(&mut self, other: Island) {
+        let (cables, members) = (self.cables.len(), self.members.len());
+        let shift = |mut pin: PinConstraint| {
+            (pin.cable, pin.body) = (pin.cable + cables, pin.body + members);
+            pin
+        };
+        self.pins.extend(other.pins.into_iter().map(shift));
+        let shift = |mut drum: Drum| {
+            (drum.cable.0, drum.body) = (drum.cable.0 + cables, drum.body + members);
+            drum
+        };
+        self.drums.extend(other.drums.into_iter().map(shift));
+        let shift = |pair: CablePair| CablePair { cables: pair.cables.map(|c| c + cables), ..pair };
+        self.pairs.extend(other.pairs.into_iter().map(shift));
+        self.cables.extend(other.cables);
+        self.members.extend(other.members);
+        self.attachments.extend(other.attachments);
+        self.supports.extend(other.supports);
+        self.sheaves.extend(other.sheaves);
+    }
+
     /// Returns whether nothing connects its cables.
     pub fn is_loose(&self) -> bool {
         self.members.is_empty() && self.sheaves.is_empty() && self.pairs.is_empty()

@@ -204,15 +204,17 @@ impl CableSet {
     /// Moves all cables, and the dynamic bodies attached to them, to static equilibrium under
     /// gravity, loads and the users' forces; velocities become zero, readings of attachments are
     /// those at rest. Returns what was moved, what was held, and what nothing is attached to.
-    /// Cables with contact lie, without friction, on the colliders of bodies that stay where they
-    /// are: fixed and kinematic ones, and dynamic ones that no cable is attached to; contact of
-    /// cables with each other takes no part.
+    /// Bodies that joints connect to those of cables move with them, and over sheaves runs what the
+    /// pulls ask for. Cables with contact lie, without friction, on the colliders of bodies that
+    /// stay where they are: fixed and kinematic ones, and dynamic ones that no cable is attached
+    /// to; contact of cables with each other takes no part.
     ///
     /// # Errors
     /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has
-    /// none; [`Error::JointInStatics`] and [`Error::ContactInStatics`] for bodies with joints and
-    /// contacts; [`Error::CableTouchesInStatics`] for a cable with contact that would run through a
-    /// collider; [`Error::OtherWorld`]. Set and world are then as before.
+    /// none; [`Error::JointInStatics`] for joints that drive or are springs;
+    /// [`Error::ContactInStatics`] for bodies with contacts; [`Error::CableTouchesInStatics`] for a
+    /// cable with contact that would run through a collider; [`Error::OtherWorld`]. Set and world
+    /// are then as before.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
         self.equilibrium_under(world, &[])
     }

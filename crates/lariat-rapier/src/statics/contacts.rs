@@ -1,5 +1,6 @@
 //! Contacts of bodies that were moved to their place, which statics do not compute.
 
+use super::joints::keep_apart;
 use crate::error::Error;
 use crate::scales::statics::TOUCH;
 use rapier::dynamics::RigidBodyHandle;
@@ -26,7 +27,8 @@ pub(super) fn check_contacts(world: &PhysicsWorld, poses: &[(RigidBodyHandle, Po
     for &(handle, _) in poses {
         let own = solid.iter().filter(|c| c.parent() == Some(handle));
         for (a, b) in own.flat_map(|a| solid.iter().map(move |b| (a, b))) {
-            if b.parent() == Some(handle) || !a.collision_groups().test(b.collision_groups()) {
+            let joined = b.parent().is_some_and(|other| keep_apart(world, handle, other));
+            if b.parent() == Some(handle) || joined || !a.collision_groups().test(b.collision_groups()) {
                 continue;
             }
             for (at, to) in [(before(a), before(b)), (after(a), after(b))] {

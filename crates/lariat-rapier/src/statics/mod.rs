@@ -6,14 +6,18 @@
 //! written back only when all islands are in equilibrium.
 //!
 //! # Validity
-//! No joints and no contacts of bodies: a body that has one is an error, before or after the
-//! search. Cables with contact lie, without friction, on the colliders of all bodies that stay
-//! where they are: fixed, kinematic, and dynamic ones that no cable is attached to. One that would
-//! run through a collider, over a sharp edge or something thin that its samples do not see, is an
-//! error. Contact of cables with each other, and with bodies that they move, takes no part. A cable
-//! alone may end in an indifferent shape, which its report says.
+//! Bodies are where their [joints](joints) allow; those that joints connect to a body with a cable
+//! move with it. Over sheaves runs what the pulls ask for; drums are an error. No contacts of
+//! bodies: a body that has one is an error, before or after the search. Cables with contact lie,
+//! without friction, on the colliders of all bodies that stay where they are: fixed, kinematic, and
+//! dynamic ones that do not move with cables. One that would run through a collider, over a sharp
+//! edge or something thin that its samples do not see, is an error. Contact of cables with each
+//! other, and with bodies that they move, takes no part. A cable alone may end in an indifferent
+//! shape, which its report says.
 
 mod contacts;
+mod joints;
+mod multibody;
 mod report;
 mod solve;
 mod write;
@@ -27,6 +31,7 @@ use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::Islands;
+use crate::step::reels;
 use contacts::check_contacts;
 use lariat_ancf::{Cable, EquilibriumOptions, EquilibriumReport};
 use rapier::dynamics::RigidBodyHandle;
@@ -57,9 +62,11 @@ pub(crate) fn equilibrium(
     contents.changed = true;
     found?;
     let mut out = Equilibrium::default();
+    let joined = joints::joined(world, &islands.list);
+    let moving: Vec<RigidBodyHandle> = joined.iter().flat_map(|island| island.bodies().collect::<Vec<_>>()).collect();
     let mut solved = Vec::new();
-    for island in &islands.list {
-        solved.push(solve(contents, finder, world, (island, forces), options, &mut out)?);
+    for island in joined {
+        solved.push(solve(contents, finder, world, (island, &moving, forces), options, &mut out)?);
     }
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;
@@ -68,12 +75,14 @@ pub(crate) fn equilibrium(
             out.held.push(a.body);
         }
     }
-    let attached = |handle| contents.attachments.values().any(|a| a.body == handle);
-    let loose = world.bodies.iter().filter(|(h, b)| is_integrated(world, *h) && !is_ledger(b) && !attached(*h));
+    let loose = world.bodies.iter().filter(|(h, b)| is_integrated(world, *h) && !is_ledger(b) && !moving.contains(h));
     out.unattached = loose.map(|(handle, _)| handle).collect();
+    // elements are split and merged where material runs over sheaves
+    reels::mark(contents);
     for island in solved {
         write(contents, world, island);
     }
+    reels::follow(contents);
     read_forces(contents, world);
     out.moved = poses.into_iter().map(|(handle, _)| handle).collect();
     Ok(out)

@@ -1,7 +1,7 @@
 //! Solves an island on copies.
 
+use super::joints;
 use super::report::Equilibrium;
-use crate::body::ledger::is_ledger;
 use crate::body::rigid_body;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
@@ -10,15 +10,15 @@ use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
 use ::nalgebra::{Matrix3, Vector3};
-use lariat_ancf::island::{self, RigidBody};
+use lariat_ancf::island::{self, Links, RigidBody, Sheave};
 use lariat_ancf::{At, Cable, EquilibriumFailure, EquilibriumOptions, Motion};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{Pose, Vector};
 use rapier::pipeline::PhysicsWorld;
 
 /// Cables and members of an island in equilibrium.
-pub(super) struct Solved<'a> {
-    pub island: &'a Island,
+pub(super) struct Solved {
+    pub island: Island,
     pub cables: Vec<Cable>,
     pub members: Vec<RigidBody>,
 }
@@ -47,18 +47,18 @@ pub(super) fn name_collider(error: lariat_ancf::Error) -> Error {
 }
 
 /// Solves an island on copies.
-pub(super) fn solve<'a>(
+pub(super) fn solve(
     contents: &mut Contents,
     finder: &mut Finder,
     world: &PhysicsWorld,
-    (island, forces): (&'a Island, &[BodyForce]),
+    (island, moving, forces): (Island, &[RigidBodyHandle], &[BodyForce]),
     options: EquilibriumOptions,
     out: &mut Equilibrium,
-) -> Result<Solved<'a>, Error> {
+) -> Result<Solved, Error> {
     let slots = island.cables.iter().filter_map(|&index| contents.cables.get(index));
     let mut cables: Vec<Cable> = slots.map(|slot| slot.cable.clone()).collect();
     for (&index, cable) in island.cables.iter().zip(&mut cables) {
-        finder.gather_for_statics(contents, world, index, cable)?;
+        finder.gather_for_statics(contents, world, (index, cable), moving)?;
     }
     for a in island.supports.iter().filter_map(|&i| contents.attachments.get(i)) {
         let Some(cable) = island.cables.iter().position(|&c| c == a.cable.0 as usize) else { continue };
@@ -68,6 +68,9 @@ pub(super) fn solve<'a>(
         (support.position, support.attached) = (Some(Motion::fixed(anchor)), false);
         cables[cable].set_support(At::Node(a.node), support)?;
     }
+    let joints = joints::of_island(world, &island)?;
+    let own = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i)?.within(&island.cables));
+    let sheaves: Vec<Sheave> = own.collect();
     let mut members = Vec::new();
     for member in &island.members {
         members.push(match member {
@@ -79,14 +82,15 @@ pub(super) fn solve<'a>(
             }
         });
     }
-    let reports = if members.is_empty() {
+    let links = Links { pins: &island.pins, joints: &joints, sheaves: &sheaves };
+    let reports = if members.is_empty() && sheaves.is_empty() {
         cables
             .iter_mut()
             .map(|cable| cable.equilibrium_with(options).map_err(name_collider))
             .collect::<Result<Vec<_>, _>>()?
     } else {
         let mut refs: Vec<&mut Cable> = cables.iter_mut().collect();
-        let report = island::equilibrium(&mut refs, &mut members, &island.pins, options).map_err(name_collider)?;
+        let report = island::equilibrium(&mut refs, &mut members, links, options).map_err(name_collider)?;
         vec![report; island.cables.len()]
     };
     out.cables.extend(island.cables.iter().map(|&c| CableHandle(c as u32)).zip(reports));
@@ -100,11 +104,6 @@ fn free_body(
     handle: RigidBodyHandle,
     forces: &[BodyForce],
 ) -> Result<RigidBody, Error> {
-    let ledger = |b: RigidBodyHandle| world.bodies.get(b).is_some_and(is_ledger);
-    let joined = world.impulse_joints.attached_enabled_joints(handle).any(|(a, b, _, _)| !ledger(a) && !ledger(b));
-    if joined || world.multibody_joints.rigid_body_link(handle).is_some() {
-        return Err(Error::JointInStatics { body: handle });
-    }
     let mut body = rigid_body(world, handle).ok_or(Error::NoBody(handle))?;
     if let Some(exact) = contents.records.get(handle).and_then(|record| record.exact.as_ref()) {
         exact.apply_to(&world.bodies[handle], &mut body);
@@ -129,7 +128,7 @@ fn held_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Result<RigidBody,
 }
 
 /// Returns the poses of the dynamic bodies of an island.
-pub(super) fn poses(world: &PhysicsWorld, solved: &Solved<'_>) -> Vec<(RigidBodyHandle, Pose)> {
+pub(super) fn poses(world: &PhysicsWorld, solved: &Solved) -> Vec<(RigidBodyHandle, Pose)> {
     let members = solved.island.members.iter().zip(&solved.members);
     members
         .filter_map(|(member, end)| {

@@ -1,5 +1,6 @@
 //! Writes what was solved to the set and the world.
 
+use super::multibody;
 use super::solve::{Solved, poses};
 use crate::body::record::ExactState;
 use crate::contents::Contents;
@@ -11,7 +12,7 @@ use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
 
 /// Writes an island in equilibrium to the set and the world.
-pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: Solved<'_>) {
+pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: Solved) {
     let poses = poses(world, &solved);
     let Solved { island, cables, members } = solved;
     for (&index, cable) in island.cables.iter().zip(cables) {
@@ -19,11 +20,15 @@ pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: S
             (slot.cable, slot.modified, slot.asleep) = (cable, true, false);
         }
     }
-    for (handle, pose) in poses {
-        let body = &mut world.bodies[handle];
-        body.set_position(pose, true);
+    for (handle, pose) in &poses {
+        let body = &mut world.bodies[*handle];
+        body.set_position(*pose, true);
         body.set_linvel(Vector::ZERO, true);
         body.set_angvel(Vector::ZERO, true);
+    }
+    multibody::follow(world, poses.iter().map(|(handle, _)| *handle));
+    for (handle, _) in poses {
+        let body = &world.bodies[handle];
         let end = island.members.iter().position(|m| *m == Member::Body(handle)).map(|m| &members[m]);
         let record = contents.records.record_mut(handle);
         record.reaction = Vector6::zeros();

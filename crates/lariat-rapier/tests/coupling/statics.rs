@@ -217,8 +217,10 @@ fn equilibrium_refuses_joints_and_contacts_and_lists_what_it_held() {
         }
     }
     let (mut world, mut set, [_, loose, load]) = build(None);
-    world.insert_impulse_joint(loose, load, SphericalJointBuilder::new().build());
-    assert_eq!(set.equilibrium(&mut world).unwrap_err(), Error::JointInStatics { body: load });
+    let driven = SphericalJointBuilder::new().motor_velocity(JointAxis::AngX, 1.0, 1.0).build();
+    world.insert_impulse_joint(loose, load, driven);
+    let error = set.equilibrium(&mut world).unwrap_err();
+    assert!(matches!(error, Error::JointInStatics { reason: "the motor of a joint drives it", .. }), "{error}");
     let (mut world, mut set, [hook, _, load]) = build(None);
     let held: Vec<_> = set.attachments().filter(|(_, a)| a.body() == hook).map(|(handle, _)| handle).collect();
     set.detach(&mut world, held[0]).unwrap();
@@ -250,4 +252,40 @@ fn the_finer_integrator_of_two_ropes_on_a_body_steps_both() {
     let expected = height([fine; 2]);
     assert!(height([coarse; 2]) != expected);
     assert_eq!([height([coarse, fine]), height([fine, coarse])], [expected; 2]);
+}
+
+/// A load on a slack rope comes to rest at the limit of a slider, on the shorter rope of a joint, or at the limit of a hinge.
+///
+/// Reference: the limits. The rope is slack and carries its own weight at most.
+#[test]
+fn limits_of_joints_hold_a_load_in_statics() {
+    let slider = PrismaticJointBuilder::new(Vector::Y).limits([-1.2, 0.3]).build();
+    let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor2(Vector::new(-1.0, 0.0, 0.0)).limits([-0.4, 0.9]);
+    let cases: [(GenericJoint, [Real; 3], [f64; 2]); 3] = [
+        (slider.into(), [0.0, -1.0, 0.0], [0.0, -1.2]),
+        (RopeJointBuilder::new(1.1).build().into(), [0.1, -1.0, 0.0], [0.0, -1.1]),
+        (hinge.build().into(), [1.0, 0.0, 0.0], [0.4f64.cos(), -0.4f64.sin()]),
+    ];
+    let limp = Section::round(0.003, 1e8, 1000.0).unwrap();
+    for (joint, start, expected) in cases {
+        let mut world = PhysicsWorld::new();
+        let hook = world.insert_body(RigidBodyBuilder::fixed());
+        let load = add_cube(&mut world, 5.0, 0.1, start);
+        world.insert_impulse_joint(hook, load, joint);
+        let mut set = CableSet::new();
+        let foot = [f64::from(start[0]), f64::from(start[1]), f64::from(start[2])];
+        let rope = set.insert(cable([-0.5, 0.0, 0.0], foot, limp).length(2.2).fix(At::Start).build().unwrap());
+        set.attach(&world, rope, At::End, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        let found = set.equilibrium(&mut world).unwrap();
+        let at = vector(world.bodies[load].translation());
+        let pull = set.attachments().map(|(_, a)| a.force().norm()).sum::<f64>();
+        println!("{at:?} for {expected:?}, rope {pull} N, {found:?}");
+        // the pull of the slack rope moves a load on a rope aside
+        let far = if joint.locked_axes.is_empty() { 0.02 } else { 1e-6 };
+        assert!((at.xy() - Vector3::new(expected[0], expected[1], 0.0).xy()).norm() < far, "{at:?} {expected:?}");
+        if joint.locked_axes.is_empty() {
+            assert!((at.norm() - 1.1).abs() < 1e-6, "{at:?}");
+        }
+        assert!(pull < 2.2 * limp.mass_per_length * 9.81, "{pull} N");
+    }
 }

@@ -18,8 +18,8 @@ impl Physics {
                 let name = name(body).unwrap_or_default();
                 Error::Body { time, body: name, problem: format!("its {quantity} is not finite") }
             }
-            lariat_rapier::Error::JointInStatics { body } => {
-                let problem = "statics compute no joints, and it has one: run the scene until it rests".to_string();
+            lariat_rapier::Error::JointInStatics { body, reason } => {
+                let problem = format!("its equilibrium is not computed: {reason}; run the scene until it rests");
                 Error::Body { time, body: name(body).unwrap_or_default(), problem }
             }
             lariat_rapier::Error::ContactInStatics { body, other } => {

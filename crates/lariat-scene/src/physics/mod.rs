@@ -236,7 +236,8 @@ impl Physics {
         let (cables, mut jolts, mut differ) = (self.cables(), Vec::new(), false);
         for attachment in &scene.attachments {
             let Some(body) = attachment.body else { continue };
-            let point = cables[attachment.cable].sample(attachment.arc_length)?;
+            let at = scene.present(attachment.cable, cables[attachment.cable], attachment.arc_length);
+            let point = cables[attachment.cable].sample(at)?;
             let state = self.body(scene, body, 0.0);
             let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
             let difference = point.velocity - there;
@@ -246,8 +247,7 @@ impl Physics {
             differ = true;
             let own = &self.world.bodies[self.bodies[body]];
             let mass = if own.is_dynamic() { f64::from(own.mass()) } else { 0.0 };
-            let shock =
-                cables[attachment.cable].shock(attachment.arc_length, &difference, mass * scene.gravity.norm())?;
+            let shock = cables[attachment.cable].shock(at, &difference, mass * scene.gravity.norm())?;
             if shock.is_large() {
                 let (attachment, cable) = (attachment.name.clone(), scene.cables[attachment.cable].name.clone());
                 let (force_n, difference_m_s) = (shock.force, difference.norm());

@@ -26,7 +26,7 @@ impl Physics {
     /// Moves cables and dynamic bodies to equilibrium, `fully` with those loads on bodies that have a ramp, which then stay.
     ///
     /// # Errors
-    /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body with a joint or a contact.
+    /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body with a contact, or a joint that statics do not compute.
     pub fn settle(&mut self, scene: &Scene, fully: bool) -> Result<Settled, Error> {
         self.script.full_loads = fully;
         let acting = scene.body_loads.iter().filter(|load| fully || load.ramp == 0.0);

@@ -22,16 +22,11 @@ impl World {
     /// bodies attached to them, too.
     ///
     /// # Errors
-    /// [`Error::Mechanics`] if there is no equilibrium, [`Error::Body`] for statics of a body with a joint or a contact.
+    /// [`Error::Mechanics`] if there is no equilibrium, [`Error::Body`] for statics of a body with a contact, or a joint that they do not compute.
     pub fn start(&mut self, purpose: Purpose) -> Result<(), Error> {
         let fully = purpose == Purpose::Static;
         let settles = fully || self.scene.equilibrium;
         let World { scene, alone, warnings, static_iterations, physics, .. } = self;
-        if settles && let Some(sheave) = scene.sheaves.first() {
-            let cable = scene.cables[sheave.cables[0]].name.clone();
-            let reason = "its end is at a sheave, whose equilibrium is not computed: run the scene until it rests";
-            return Err(lariat_ancf::Error::ReelPlace { cable, reason }.into());
-        }
         warnings.extend(scene.warnings(purpose));
         let mut held_by = vec![Default::default(); scene.attachments.len()];
         let mut reports = Vec::new();
@@ -42,6 +37,11 @@ impl World {
             }
             if settles || scene.cables[i].equilibrium {
                 scene.move_to_anchors(cable, i)?;
+            }
+            // what runs over a sheave, or is on a drum, has no equilibrium by itself: it begins as drawn
+            let over_sheave = scene.sheaves.iter().any(|sheave| sheave.cables.contains(&i));
+            let runs_on = settles && (over_sheave || scene.cables[i].drum.is_some());
+            if (settles || scene.cables[i].equilibrium) && !runs_on {
                 let report = match physics {
                     // statics of bodies begin without what the cable can touch
                     Some(physics) if !settles => physics.equilibrium_among(scene, cable)?,

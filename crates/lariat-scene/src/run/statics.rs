@@ -103,10 +103,13 @@ impl CableStatics {
         report: &EquilibriumReport,
     ) -> Result<Self, Error> {
         let attachments = scene.attachments.iter().filter(|a| a.cable == index);
-        let mut held: Vec<(String, f64)> = attachments.map(|a| (a.name.clone(), a.arc_length)).collect();
+        let mut held: Vec<(String, f64)> =
+            attachments.map(|a| (a.name.clone(), scene.present(index, cable, a.arc_length))).collect();
         for junction in &scene.junctions {
             let points = junction.points.iter().filter(|(cable, _)| *cable == index);
-            held.extend(points.map(|&(_, arc_length)| (junction.name.clone(), arc_length)));
+            held.extend(
+                points.map(|&(_, arc_length)| (junction.name.clone(), scene.present(index, cable, arc_length))),
+            );
         }
         held.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (peak_tension_at_m, peak_tension_n) = cable.peak_tension();

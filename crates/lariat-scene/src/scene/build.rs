@@ -64,6 +64,19 @@ impl Scene {
         [reel(true) || at_sheave(1), reel(false) || at_sheave(0)]
     }
 
+    /// Returns the arc length in m at which a point of a cable is that was at one at t = 0: material that comes through an eye at the start
+    /// moves it, and the points at eyes stay there.
+    pub fn present(&self, index: usize, cable: &Cable, arc_length: f64) -> f64 {
+        let [at_start, at_end] = self.eyes(index);
+        if at_start && arc_length == 0.0 {
+            0.0
+        } else if at_end && arc_length >= self.cables[index].length * (1.0 - 1e-9) {
+            cable.length()
+        } else {
+            arc_length + cable.length_from_start()
+        }
+    }
+
     /// Returns the points of a cable that junctions tie to others.
     pub fn tied(&self, index: usize) -> impl Iterator<Item = &(usize, f64)> {
         self.junctions.iter().flat_map(|j| &j.points).filter(move |(cable, _)| *cable == index)

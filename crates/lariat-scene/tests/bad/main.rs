@@ -6,7 +6,6 @@ mod cases;
 mod joints;
 mod junctions;
 
-use lariat_scene::run::World;
 use lariat_scene::{Error, Place, Problem, Purpose, Scene, SceneError};
 
 const GOOD: &str = "duration = 1.0\n[[cable]]\nname = \"sling\"\npoints = [[0, 0, 0], [2, 0, 0]]\nsection = { round = 0.01 }\n\
@@ -67,16 +66,4 @@ fn the_nearest_key_value_or_name_is_suggested() {
         let message = error(&format!("{GOOD}{extra}\n")).to_string();
         assert!(message.contains("did you mean") && message.contains(name), "{message}");
     }
-}
-
-/// With held ends the cable at a sheave has no body to move, and was refused as one that only an island can step.
-#[test]
-fn statics_of_a_cable_over_a_sheave_are_refused_with_what_to_do() {
-    let rope = GOOD.replace("[2, 0, 0]", "[1, 1, 0], [2, 0, 0]");
-    let held = "[[sheave]]\ncable = \"sling\"\nat = 1.4142135623730951\nbody = \"world\"\nanchor = [1, 1, 0]\n\
-                [[attachment]]\ncable = \"sling\"\nat = \"start\"\nbody = \"world\"\n\
-                [[attachment]]\ncable = \"sling\"\nat = \"end\"\nbody = \"world\"\n";
-    let scene = Scene::parse("scene.toml", &(rope + held), &[], Purpose::Static).unwrap();
-    let error = World::build(&scene).and_then(|mut world| world.start(Purpose::Static)).unwrap_err().to_string();
-    assert!(error.contains("sheave, whose equilibrium is not computed: run the scene"), "{error}");
 }

@@ -2,6 +2,7 @@
 
 mod contacts;
 mod holds;
+mod joined_statics;
 mod motion;
 mod results;
 mod runs;

@@ -34,6 +34,7 @@ mod plan;
 mod reading;
 mod remesh;
 mod settle;
+mod static_feed;
 mod step;
 mod winding;
 

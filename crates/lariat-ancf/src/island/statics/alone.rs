@@ -187,7 +187,7 @@ impl Cable {
         let loads = self.model.loads.clone();
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
         let cables = &mut [&mut *self];
-        let mut search = Search::new(cables, &[], &[], budget.tolerance);
+        let mut search = Search::new(cables, &[], (&[], &[]), budget.tolerance);
         let outcome = search.run(cables, budget.left());
         self.model.loads = loads;
         self.snapshot.state.q.copy_from_slice(&search.q);

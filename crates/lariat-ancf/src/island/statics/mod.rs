@@ -13,12 +13,16 @@
 //! step. The end is checked: forces and moments balance at every node and at every body, no element
 //! is folded, and the matrix is positive definite; a saddle is left by a small displacement.
 //!
+//! [Joints](joint) between bodies are a potential of their multipliers, and [over sheaves](sheaves)
+//! material runs from one equilibrium to the next.
+//!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
 //! symmetric: the error falls linearly.
 //!
 //! # Validity
 //!
-//! Loads on bodies that are constant in world axes. Cables touch obstacles that stand still,
+//! Loads on bodies that are constant in world axes. No drums that are bodies: one that is free to
+//! turn rests only where something else balances the pull. Cables touch obstacles that stand still,
 //! without friction; contact of the bodies, and of cables with them, must be known to the caller.
 //! Modes without stiffness, such as a turn about a rope, keep their place.
 //!
@@ -32,44 +36,67 @@
 //! - Motion with damping until it rests: its last digits take as long as all before.
 
 mod alone;
+mod joint;
 mod search;
+mod sheaves;
+
+pub(super) use joint::Joints;
+pub use joint::{FREE, JointFrame, StaticJoint};
 
 use super::body::RigidBody;
 use super::hold::vector;
 use super::pin::{PinConstraint, check, is_on_free_body};
+use super::reel::{self, Sheave};
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::island::layout::Layout;
+use crate::reel::Feed;
+use crate::scales::statics::PULLS;
 use crate::statics::{Continued, EquilibriumOptions, EquilibriumReport, find};
 use nalgebra::Vector3;
 use search::Search;
+use sheaves::{Balance, Passing};
 
-/// Moves cables and bodies, held together by `pins`, to static equilibrium under gravity, the full
+/// What holds the cables and bodies of an island together, in statics.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Links<'a> {
+    /// Pins of cables to bodies.
+    pub pins: &'a [PinConstraint],
+    /// Joints between bodies.
+    pub joints: &'a [StaticJoint],
+    /// Sheaves between cables.
+    pub sheaves: &'a [Sheave],
+}
+
+/// Moves cables and bodies, held together by `links`, to static equilibrium under gravity, the full
 /// point loads and effects of the cables, and the forces and torques of the bodies; velocities
-/// become zero. Flow is that of the cables' time.
+/// become zero. Flow is that of the cables' time. Over sheaves runs what their pulls ask for, so
+/// that the cables may have other nodes than before.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins
-/// that do not fit. Cables and bodies are then as before.
+/// and sheaves that do not fit. Cables and bodies are then as before.
 pub fn equilibrium(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],
-    pins: &[PinConstraint],
+    Links { pins, joints, sheaves }: Links<'_>,
     options: EquilibriumOptions,
 ) -> Result<EquilibriumReport, Error> {
     require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
     check(cables, bodies, pins)?;
-    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| cable.needs_island(side))) {
-        let reason = "its end is at a sheave or on a drum, whose equilibrium is not computed";
+    joints.iter().try_for_each(|joint| joint.check(bodies.len()))?;
+    let on_drum = |cable: &Cable, side| cable.model.reels.get(side).is_some_and(|reel| reel.feed == Feed::BodyDrum);
+    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| on_drum(cable, side))) {
+        let reason = "its end is on a drum, which turns until what turns it balances the pull: statics hold no drum";
         return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
     }
+    reel::check(cables, bodies, pins, (sheaves, &[]))?;
     if let Some(cable) = cables.iter().find(|cable| !cable.segments().is_empty()) {
         let by = "by an equilibrium of cables and bodies together".to_string();
         return Err(Error::TorsionPlace { cable: cable.name().to_string(), by });
     }
-    let kept = |cable: &&mut Cable| (cable.snapshot.clone(), cable.model.loads.clone(), cable.model.supports.clone());
-    let before: Vec<_> = cables.iter().map(kept).collect();
+    let before: Vec<Cable> = cables.iter().map(|cable| (**cable).clone()).collect();
     for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
         cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
         cable.sync_reel();
@@ -79,47 +106,64 @@ pub fn equilibrium(
         (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
     }
     cables.iter_mut().flat_map(|cable| &mut cable.model.loads).for_each(|load| load.ramp = 0.0);
-    cables.iter_mut().for_each(|cable| cable.begin_static_contact());
-    let search = Search::new(cables, &still, pins, options.tolerance);
-    let mut together = Together { cables, search, iterations: options.iterations };
-    let outcome = find(&mut together);
-    let search = together.search;
-    let (steps, residual) = (search.steps, search.residual);
-    let mut named = 0;
-    let outcome = outcome.and_then(|stable| {
-        for (i, (cable, part)) in cables.iter_mut().zip(&search.layout.parts).enumerate() {
+    let outcome = settle(cables, &mut still, (pins, joints, sheaves), options);
+    for (cable, before) in cables.iter_mut().zip(before) {
+        if outcome.is_err() {
+            **cable = before;
+        } else {
+            cable.model.loads.iter_mut().zip(&before.model.loads).for_each(|(load, own)| load.ramp = own.ramp);
+        }
+    }
+    let report = outcome?;
+    for (body, still) in bodies.iter_mut().zip(&still) {
+        (body.position, body.rotation) = (still.position, still.rotation);
+        (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
+    }
+    Ok(report)
+}
+
+/// Searches for equilibria until no material runs over a sheave.
+fn settle(
+    cables: &mut [&mut Cable],
+    bodies: &mut [RigidBody],
+    (pins, joints, sheaves): (&[PinConstraint], &[StaticJoint], &[Sheave]),
+    options: EquilibriumOptions,
+) -> Result<EquilibriumReport, Error> {
+    let (mut pins, mut passing) = (pins.to_vec(), Passing::new(sheaves, cables));
+    let mut iterations = 0;
+    loop {
+        cables.iter_mut().for_each(|cable| cable.begin_static_contact());
+        let search = Search::new(cables, bodies, (&pins, joints), options.tolerance);
+        let mut together = Together { cables, search, iterations: options.iterations };
+        let outcome = find(&mut together);
+        let search = together.search;
+        iterations += search.steps;
+        let failed = |cable: &Cable, failure| Error::NoEquilibrium {
+            cable: cable.name().to_string(),
+            time: cable.time(),
+            failure,
+            residual: search.residual,
+            iterations,
+        };
+        let stable = outcome.map_err(|failure| failed(cables[0], failure))?;
+        for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
             cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
             cable.set_at_rest();
             cable.snapshot.state.memory.contacts = cable.end_static_contact();
             if let Some(failure) = cable.crosses() {
-                named = i;
-                return Err(failure);
+                return Err(failed(cable, failure));
             }
         }
-        Ok(stable)
-    });
-    for (cable, (snapshot, loads, supports)) in cables.iter_mut().zip(before) {
-        cable.model.loads = loads;
-        if outcome.is_err() {
-            cable.system.static_contact.end();
-            cable.system.static_torsion = None;
-            (cable.snapshot, cable.model.supports) = (snapshot, supports);
-            cable.sync_reel();
+        for (i, (body, found)) in bodies.iter_mut().zip(&search.layout.bodies).enumerate() {
+            body.position = vector(&search.q[search.layout.body_at(i)..]);
+            body.rotation = found.rotation;
+        }
+        match passing.pass(cables, &mut pins, PULLS * search.tolerance)? {
+            Balance::Rest => return Ok(EquilibriumReport { iterations, residual: search.residual, stable }),
+            Balance::Moved => {}
+            Balance::Never => return Err(failed(cables[0], EquilibriumFailure::NotConverged)),
         }
     }
-    let stable = outcome.map_err(|failure| Error::NoEquilibrium {
-        cable: cables[named].name().to_string(),
-        time: cables[0].time(),
-        failure,
-        residual,
-        iterations: steps,
-    })?;
-    for (i, (body, still)) in bodies.iter_mut().zip(&search.layout.bodies).enumerate() {
-        body.position = vector(&search.q[search.layout.body_at(i)..]);
-        body.rotation = still.rotation;
-        (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
-    }
-    Ok(EquilibriumReport { iterations: steps, residual, stable })
 }
 
 /// The search for the equilibrium of an island.

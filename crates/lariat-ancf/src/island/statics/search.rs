@@ -1,5 +1,6 @@
 //! The iteration to equilibrium: proximal steps, and the checks of their end.
 
+use super::joint::{Joints, StaticJoint};
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
 use crate::error::{EquilibriumFailure, StepFailure};
@@ -14,6 +15,7 @@ use crate::scales::statics::{
     AT_REST, GROWTH, ISLAND_CONVERGED, ISLAND_STAGNATION, MAX_C2, MAX_ITERATIONS, MAX_SHAKES, MAX_SLOPE_CHANGE, MIN_C2,
     REDUCTION, SHAKE, STABILITY_C2,
 };
+use crate::section::Element;
 use crate::statics::{first_fold, move_with_supports, potential, straighten};
 use crate::system::project_vector;
 use nalgebra::Vector3;
@@ -31,7 +33,7 @@ pub(super) struct Search {
     rhs: Vec<f64>,
     /// Sum of the loads in N, and the largest residual that is small.
     force: f64,
-    tolerance: f64,
+    pub tolerance: f64,
     energy_rounding: f64,
     length: f64,
     /// First c2 in s^2.
@@ -44,7 +46,12 @@ pub(super) struct Search {
 }
 
 impl Search {
-    pub fn new(cables: &mut [&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], tolerance: f64) -> Self {
+    pub fn new(
+        cables: &mut [&mut Cable],
+        bodies: &[RigidBody],
+        (pins, joints): (&[PinConstraint], &[StaticJoint]),
+        tolerance: f64,
+    ) -> Self {
         let mut layout = Layout::default();
         layout.begin(cables, bodies, pins, 1.0);
         layout.close();
@@ -53,6 +60,12 @@ impl Search {
         let force = scales.iter().map(|s| s.force).sum::<f64>() + of_bodies;
         let mass: f64 = scales.iter().map(|s| s.mass).sum::<f64>() + bodies.iter().map(|b| b.mass).sum::<f64>();
         let length = scales.iter().map(|s| s.length).fold(0.0, f64::max);
+        if !joints.is_empty() {
+            let of_element = |e: &Element| e.section.axial_stiffness / e.length;
+            let elastic = cables.iter().flat_map(|c| &c.model.elements).map(of_element).fold(0.0, f64::max);
+            layout.joints = Joints::new(joints, elastic.max(force / length), length);
+            layout.joints.lengthen(&mut layout.levers);
+        }
         let driven = cables.iter().any(|c| c.system.forces.drive());
         let moments = cables.iter().flat_map(|c| &c.model.loads).any(|load| load.moment != Vector3::zeros());
         let has_potential = !driven && !moments;
@@ -90,14 +103,21 @@ impl Search {
             self.residual = resultant;
             return Err(EquilibriumFailure::NotHeld);
         }
-        let mut left = None;
-        let outcome = self.descend(cables, most, &mut left);
-        match left {
-            Some((q, layout, residual)) if outcome.is_err() => {
-                (self.q, self.layout, self.residual) = (q, layout, residual);
-                Ok(false)
+        loop {
+            let mut left = None;
+            let outcome = self.descend(cables, most, &mut left);
+            let stable = match left {
+                Some((q, layout, residual)) if outcome.is_err() => {
+                    (self.q, self.layout, self.residual) = (q, layout, residual);
+                    false
+                }
+                _ => outcome?,
+            };
+            let Search { layout, q, length, .. } = self;
+            let pose = layout.pose(q);
+            if layout.joints.renew(*length, &layout.bodies, pose) {
+                return Ok(stable);
             }
-            _ => outcome,
         }
     }
 
@@ -174,8 +194,9 @@ impl Search {
         let is_held = |model: &Model| {
             !model.potentials.list.is_empty() || model.supports.iter().any(|(_, s)| s.position.is_some())
         };
-        let held =
-            cables.iter().any(|c| is_held(&c.model)) || self.layout.bodies.iter().any(|b| b.free[..3] != [true; 3]);
+        let held = cables.iter().any(|c| is_held(&c.model))
+            || self.layout.bodies.iter().any(|b| b.free[..3] != [true; 3])
+            || self.layout.joints.hold();
         let of_cable =
             |c: &&mut Cable| c.model.loads.iter().fold(c.model.dead_resultant().0, |sum, load| sum + load.force);
         let sum = cables.iter().map(of_cable).chain(self.layout.bodies.iter().map(total_force)).sum::<Vector3<f64>>();
@@ -355,5 +376,5 @@ fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64]) -> f64 {
         });
         body.force.dot(&vector(&q[at..])) + body.torque.dot(&turn) + points
     });
-    sum - work.sum::<f64>()
+    sum - work.sum::<f64>() + layout.joints.energy(&layout.bodies, layout.pose(q))
 }

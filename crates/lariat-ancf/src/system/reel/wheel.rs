@@ -75,13 +75,7 @@ impl Wheel {
         let ends = [least, 0.0f64.clamp(least, largest), largest].map(|end| (end - rate) / h);
         let [least, largest] = [ends[0], ends[2]].map(|end| end.max(reach[0]).min(reach[1]));
         self.graph = Graph { least, wanted: ends[1], largest };
-        let [a, b] = tangents;
-        let dot: f64 = (0..3).map(|x| -a[x] * b[x]).sum();
-        let norm = |t: [f64; 3]| t.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let cosine = dot / (norm(a) * norm(b)).max(f64::MIN_POSITIVE);
-        let angle = cosine.clamp(-1.0, 1.0).acos() + self.sheave.turns;
-        let grip = if self.sheave.friction > 0.0 { (self.sheave.friction * angle).exp() - 1.0 } else { 0.0 };
-        self.bound = Bound { limit: self.sheave.brake, grip, lift: inertia * rate * rate };
+        self.bound = self.sheave.bound(tangents, inertia * rate * rate);
         let present = if rate == 0.0 { self.graph.wanted } else { feeds[1].extent.acceleration };
         self.graph.bounded(present)
     }
@@ -123,6 +117,24 @@ impl Wheel {
         self.sheave.force = self.friction(feeds.map(FeedElement::pull_of_iterate), feeds[1].extent.acceleration);
         self.sheave.passed += rate * h;
         self.sheave.lost += self.sheave.force * rate * h;
+    }
+}
+
+impl Sheave {
+    /// Returns its friction between cables with these tangents there, away from the cables; `lift`
+    /// in N is what the running rope takes off the pressure.
+    fn bound(&self, [a, b]: [[f64; 3]; 2], lift: f64) -> Bound {
+        let dot: f64 = (0..3).map(|x| -a[x] * b[x]).sum();
+        let norm = |t: [f64; 3]| t.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cosine = dot / (norm(a) * norm(b)).max(f64::MIN_POSITIVE);
+        let angle = cosine.clamp(-1.0, 1.0).acos() + self.turns;
+        let grip = if self.friction > 0.0 { (self.friction * angle).exp() - 1.0 } else { 0.0 };
+        Bound { limit: self.brake, grip, lift }
+    }
+
+    /// Returns its friction in N between cables that rest, with these tangents and pulls.
+    pub(crate) fn friction_at_rest(&self, tangents: [[f64; 3]; 2], [a, b]: [f64; 2]) -> f64 {
+        self.bound(tangents, 0.0).under(a.min(b))
     }
 }
 
