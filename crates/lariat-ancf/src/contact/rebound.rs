@@ -57,7 +57,8 @@
 //! A bounce at v reaches 5 um. A contact that is relieved comes up by its depth, some um, at v; one
 //! that rests has `s = 0` and the law of depth. Without restitution a cable leaves with at most
 //! 0.11 of its speed, 1 % of the height of its fall. What is stored under a much heavier body that
-//! presses it down throws the body with more, by the root of the masses.
+//! presses it down throws the body with more, by the root of the masses. Between cables the law is
+//! that of depth.
 //!
 //! # References
 //!
@@ -67,8 +68,8 @@
 //!
 //! # Alternatives considered
 //!
-//! docs/decisions/restitution.md: Hunt & Crossley's law itself, hysteresis in the depth, an impact at
-//! the end of the step alone, and a bound that does not see the depth.
+//! docs/decisions/restitution.md: Hunt & Crossley's law itself, hysteresis in the depth, an impact
+//! at the end of the step alone, and a bound that does not see the depth.
 
 use super::law::{NormalLaw, Pressure};
 use crate::scales::contact::{DEPTHS, RESOLVED, RISE, SLOW};

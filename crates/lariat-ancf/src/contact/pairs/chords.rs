@@ -27,8 +27,6 @@ pub(crate) struct Strand<'a> {
     pub key: u64,
     pub model: &'a Model,
     pub q: &'a [f64],
-    /// Their rates when the step begins.
-    pub v: &'a [f64],
     /// Change of the coordinates in the present iterate.
     pub change: &'a [f64],
     pub memory: &'a [PairMemory],

@@ -174,8 +174,6 @@ impl PairStep {
             point.close((paid / point.cost()).min(self.h / CLOSING_TIME).min(1.0));
         }
         self.before += point.energy_before();
-        let rate = [0, 1].map(|k| combine(own[k].v, candidate.elements[k], &ends[k].shape));
-        point.find_rebound(&still, self.leg.b, || (rate[0] - rate[1]) * self.h);
         let tangents = [at(0, &ends[0].slope), at(1, &ends[1].slope)];
         self.points.push(PairPoint::new(ends, point, tangents, self.h));
     }

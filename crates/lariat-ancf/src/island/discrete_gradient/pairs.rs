@@ -18,8 +18,7 @@ fn with_strands<T>(
         let state = &snapshot.state;
         let key = if model.contact_key == 0 { c as u64 } else { model.contact_key };
         let passed = snapshot.passed_at_start();
-        let (q, v, change) = (&state.q, &state.v, &step_buffers.change);
-        Strand { key, model, q, v, change, memory: &state.memory.pairs, passed }
+        Strand { key, model, q: &state.q, change: &step_buffers.change, memory: &state.memory.pairs, passed }
     };
     let over_bodies = |strands: [usize; 2], arcs: [f64; 2]| {
         let on = |k: usize| {
