@@ -18,13 +18,14 @@
 //! e leaves of the velocity v0 with which a contact came, until it comes again. Where a step does
 //! not resolve the touch ([`rebound`](super::rebound)) an impact also gives what lacks of u until
 //! it leaves, with the velocity at the beginning of the step if that is less; then it only takes
-//! what is more, so that what lies stays. What G is too soft to give, or with restitution to take
-//! but for 1 cm/s, is added to R and solved for again (augmented Lagrangian), until it changes by
-//! 1e-3. T is the tangent of friction, S the step matrix without contacts; the sum is the matrix
-//! that the last iteration factored. So an impulse spreads through cable and bodies as those of the
-//! step did. Where a contact slips, the friction of the impulse that is taken back goes with it,
-//! with l of a first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the
-//! velocity of contacts that a step does not resolve is taken at once.
+//! what is more, so that what lies stays. Without restitution u is what the law lets come up, where
+//! the step resolves that, else 0. What G is too soft to give, or where u > 0 to take but for 1
+//! cm/s, is added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is
+//! the tangent of friction, S the step matrix without contacts; the sum is the matrix that the last
+//! iteration factored. So an impulse spreads through cable and bodies as those of the step did.
+//! Where a contact slips, the friction of the impulse that is taken back goes with it, with l of a
+//! first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of
+//! contacts that a step does not resolve is taken at once.
 //!
 //! The energy of motion and of the store change by
 //!
@@ -63,7 +64,7 @@ use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::element::assembly::add_force;
 use crate::one_leg::OneLeg;
-use crate::scales::contact::{GIVEN, SLOW};
+use crate::scales::contact::{GIVEN, RISE, SLOW};
 use nalgebra::Vector3;
 
 /// An end of a step.
@@ -105,6 +106,10 @@ impl ContactPoint {
             gives = across < least && !self.is_resolved(h, self.came.abs());
             rebound = if gives { least } else { self.restitution * self.came.abs() };
             self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
+        } else if self.rebound.is_bound() {
+            // what a step resolves comes up by itself
+            let thrown = self.thrown(self.now.depth + self.offset - self.closing);
+            rebound = if self.is_resolved(h, thrown) { RISE * thrown } else { 0.0 };
         }
         let over = across - rebound;
         if over <= 0.0 && !gives {
@@ -127,7 +132,8 @@ impl ContactPoint {
         let left = impact.beside - taken;
         let over = impact.normal.dot(&left) - impact.rebound;
         let (wanted, most) = (impact.gain * over, h * now.normal_force);
-        let takes_more = self.restitution > 0.0 && over > SLOW && impact.given + wanted < most;
+        let is_bound = self.restitution > 0.0 || impact.rebound > 0.0;
+        let takes_more = is_bound && over > SLOW && impact.given + wanted < most;
         if impact.gives || takes_more {
             let given = impact.given;
             impact.given = (given + wanted).min(most);

@@ -9,7 +9,7 @@
 //!
 //! ```text
 //! normal     f_n = -W'(g1) gbar                        gbar . (y1 - y0) = g1 - g0 exactly          (patch.rs)
-//!            less where it opens faster than restitution leaves, with restitution                  (rebound.rs)
+//!            less where it opens faster than restitution leaves                                    (rebound.rs)
 //! friction   u' = P u0 + P (y1 - y0),  |k_t u'| <= mu N: u1 = u', else u1 = mu N/k_t u'/|u'|       (law.rs)
 //!            f_t = -k_t u1
 //! ```

@@ -6,7 +6,7 @@ use super::impulse::Impact;
 use super::law::{NormalLaw, friction, spring_energy};
 use super::linear::{About, Linear, Roll, Tangents};
 use super::path::ObstacleStep;
-use super::rebound::{Push, Rebound, is_resolved};
+use super::rebound::{Push, Rebound, is_resolved, thrown};
 use crate::element::shape::combine;
 use crate::obstacle::Patch;
 use crate::scales::contact::{CLOSING_TIME, LIFTED};
@@ -114,6 +114,11 @@ impl ContactPoint {
         is_resolved(&self.law, h, self.mass, speed)
     }
 
+    /// Returns the speed in m/s at which it would be thrown off from a depth (m), offset and all.
+    pub fn thrown(&self, depth: f64) -> f64 {
+        thrown(&self.law, self.mass, depth)
+    }
+
     /// Returns whether restitution gives back what comes: of one that touches first, or came and
     /// has not come again.
     pub fn bounces(&self) -> bool {
@@ -123,11 +128,15 @@ impl ContactPoint {
     /// Finds what restitution gives back in the step, in a formula with the coefficient b; `moves`
     /// is its motion beside the obstacle in the step with the velocities at the beginning.
     pub fn find_rebound(&mut self, obstacle: &ObstacleStep, b: f64, moves: impl FnOnce() -> Vector3<f64>) {
-        if !self.bounces() {
+        if self.restitution > 0.0 && !self.bounces() {
             return;
         }
         let normal = self.patch.over_step(obstacle, &self.start, &Vector3::zeros(), None).normal;
         let opens = normal.dot(&moves()) / obstacle.h;
+        if self.restitution == 0.0 {
+            self.rebound = Rebound::dead(self.thrown(self.depth_before), opens, b);
+            return;
+        }
         let came = if self.touched { self.came.abs() } else { (-opens).max(0.0) };
         self.rebound = Rebound::new(self.restitution * came, opens, b, self.is_resolved(obstacle.h, came));
     }

@@ -185,6 +185,11 @@ pub(crate) const STRAIGHT: f64 = 0.95;
 /// it may open with. Derived: a bounce of 5 um, below which a cable of mm is taken to lie.
 pub(crate) const SLOW: f64 = 0.01;
 
+/// Share of the speed at which its store would throw a cable off, with which it comes up without
+/// restitution. Measured: docs/decisions/restitution.md; of 0.05, 0.1 and 0.2 as much of the speed
+/// of a fall is left, and with 0.2 thrown ropes stay deep.
+pub(crate) const RISE: f64 = 0.1;
+
 /// Largest way, in depths of the touch, of a step that resolves it. Measured:
 /// docs/decisions/restitution.md; from 2.2 to 3 alike.
 pub(crate) const RESOLVED: f64 = 2.5;
