@@ -61,6 +61,10 @@ pub struct Diagnostics {
     /// a 64th of the host step, with an estimated error above the tolerance.
     #[serde(default)]
     pub unresolved_steps: u64,
+    /// Host steps whose accuracy was reduced because a [limit](crate::integrate::WorkLimit) to the
+    /// work was reached.
+    #[serde(default)]
+    pub cut_steps: u64,
     /// Pairs of neighbouring directions that turned by more than 120 degrees to each other or in a
     /// step, at which the twist of a cable with torsion is not kept.
     #[serde(default)]
@@ -88,7 +92,7 @@ macro_rules! by_field {
         by_field!(@ $a, $b, $op, $rest; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
             load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, lagging_steps,
-            unresolved_steps, twist_slips, warnings)
+            unresolved_steps, cut_steps, twist_slips, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $rest:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* ..$rest }

@@ -243,6 +243,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::RoundedEnds { cable: cable(), time_s, noise_n: 1.0, tension_n: 2.0 },
         Warning::PassedThrough { cable: cable(), steps },
         Warning::NotResolved { cable: cable(), steps },
+        Warning::CutShort { cable: cable(), steps },
         Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },
         Warning::CoarseContact { cable: cable(), arc_length_m: 0.5, turn_rad: 1.0, enough },
         Warning::HighRestitution { cable: cable(), restitution: 1.0 },

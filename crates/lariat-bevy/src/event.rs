@@ -51,6 +51,8 @@ pub struct CableAwake {
 pub struct CableDegraded {
     /// The cable.
     pub entity: Entity,
+    /// Newton iterations of its island in the host step until then.
+    pub iterations: u64,
 }
 
 /// A cable broke because its load exceeded [`BreakTension`](crate::BreakTension) or

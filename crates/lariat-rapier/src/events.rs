@@ -81,7 +81,12 @@ pub enum Event {
     /// with error control holds a body in contact that is so light that
     /// [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) do not resolve its
     /// vibration: it is then integrated as in fidelity game.
-    Degraded(CableHandle),
+    Degraded {
+        /// The cable.
+        cable: CableHandle,
+        /// Newton iterations of its island in the host step until then.
+        iterations: u64,
+    },
     /// A cable woke up.
     Awake(CableHandle),
     /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Each kind

@@ -24,6 +24,7 @@ use web_time::Instant;
 #[derive(Clone, Debug)]
 pub struct WorkLimit {
     iterations: Cell<u64>,
+    spent: Cell<u64>,
     deadline: Option<Instant>,
     reduced: Cell<bool>,
     progressed: Cell<bool>,
@@ -34,7 +35,14 @@ impl WorkLimit {
     /// Returns a limit to the number of Newton iterations. Repeatable to the bit.
     pub fn iterations(iterations: u64) -> Self {
         let [reduced, progressed, stopped] = [const { Cell::new(false) }; 3];
-        WorkLimit { iterations: Cell::new(iterations), deadline: None, reduced, progressed, stopped }
+        WorkLimit {
+            iterations: Cell::new(iterations),
+            spent: Cell::new(0),
+            deadline: None,
+            reduced,
+            progressed,
+            stopped,
+        }
     }
 
     /// Returns a limit to time. Not repeatable.
@@ -52,6 +60,11 @@ impl WorkLimit {
         self.iterations.get()
     }
 
+    /// Returns the number of Newton iterations that were taken.
+    pub fn spent(&self) -> u64 {
+        self.spent.get()
+    }
+
     /// Returns whether a step was taken with reduced accuracy because nothing was left.
     pub fn has_reduced(&self) -> bool {
         self.reduced.get()
@@ -64,6 +77,7 @@ impl WorkLimit {
 
     /// Counts iterations.
     pub(crate) fn spend(&self, iterations: u64) {
+        self.spent.set(self.spent.get() + iterations);
         if self.deadline.is_none() {
             self.iterations.set(self.iterations.get().saturating_sub(iterations));
         }

@@ -172,3 +172,14 @@ pub(crate) const HALF: f64 = 0.5;
 /// Share of the energy of the residual by which what is left may differ from that of a linear
 /// force. Unknown: below it the next iteration converges by itself.
 pub(crate) const LINEAR: f64 = 0.1;
+
+/// Share of the motion by which the momenta may be off after a step in games. Setting: the law is
+/// documented with it, 1e-4 (docs/coupling.md); steps owe nearly all of it at once.
+pub(crate) const MOMENTUM_TOLERANCE_OF_STEP: f64 = 1e-5;
+
+/// The same under a tolerance. Setting: likewise, 5e-7.
+pub(crate) const MOMENTUM_TOLERANCE_UNDER_CONTROL: f64 = 1e-7;
+
+/// Largest number of divisions of divisions for what is found at the end of a step. Unknown: what
+/// is missing there falls with the square of the step, to 4^-6 of it.
+pub(crate) const MAX_DEPTH_OF_ENDS: usize = 3;

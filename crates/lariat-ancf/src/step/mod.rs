@@ -8,7 +8,7 @@ pub use fleet::{FleetError, step_all};
 
 use crate::cable::{Cable, check_integrator};
 use crate::error::{Error, require};
-use crate::integrate::{IntegratorRef, step_control};
+use crate::integrate::{IntegratorRef, WorkLimit, step_control};
 use crate::island::advance_alone;
 use crate::system::{CableDynamics, Equations};
 
@@ -70,6 +70,7 @@ impl Cable {
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;
         self.diagnostics.unresolved_steps += counts.unresolved;
+        self.diagnostics.cut_steps += u64::from(integrator.limit.is_some_and(WorkLimit::has_reduced));
         match outcome {
             Ok(()) => {
                 self.diagnostics.host_steps += 1;

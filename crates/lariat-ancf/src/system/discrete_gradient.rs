@@ -238,6 +238,20 @@ impl Equations<'_> {
         }
     }
 
+    /// Computes coordinates and velocities of the end of the step of a cable whose ends are fixed
+    /// to its material, to the bit as [`accept_step`](Self::accept_step) leaves them.
+    pub fn end_of_step(&self, state: &State, b: &StepVectors, [q, v]: &mut [Vec<f64>; 2]) {
+        q.clear();
+        q.extend(state.q.iter().zip(&b.change).map(|(q, change)| q + change));
+        v.clear();
+        v.extend(state.v.iter().zip(&b.velocity_change).map(|(v, change)| v + change));
+        v.iter_mut().zip(&b.taken).for_each(|(v, taken)| *v -= taken);
+        v.iter_mut().zip(&b.landed).for_each(|(v, landed)| *v -= landed);
+        for (i, end) in self.prescribed_at(state.time + b.h) {
+            q[i] = end;
+        }
+    }
+
     /// Makes the end of the step the state.
     pub fn accept_step(&mut self, state: &mut State, b: &StepVectors) {
         self.end_feeds_of_step(state, b);

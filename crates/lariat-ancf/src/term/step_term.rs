@@ -15,6 +15,8 @@ pub(crate) struct StepStart {
     pub divided: bool,
     /// Whether it may be divided in turn.
     pub divisible: bool,
+    /// Share of the motion by which momenta may be off at its end.
+    pub may_owe: f64,
 }
 
 /// What a verdict is asked for.
@@ -81,6 +83,11 @@ pub(crate) trait StepTerm<S: ?Sized> {
     /// Takes what must not be left when the accepted step ends.
     fn finish(_: &mut S, _: &mut Balance) {}
 
+    /// Judges the end of the step, when all have taken from it what they take.
+    fn examine(_: &mut S, _: &mut Balance) -> Verdict {
+        Verdict::Accept
+    }
+
     /// Makes the end of the step the present state. The last term of a list is the first.
     fn accept(_: &mut S) {}
 }
@@ -139,6 +146,13 @@ impl<S: ?Sized, A: StepTerm<S>, B: StepTerm<S>> StepTerm<S> for (A, B) {
     fn finish(system: &mut S, balance: &mut Balance) {
         A::finish(system, balance);
         B::finish(system, balance);
+    }
+
+    fn examine(system: &mut S, balance: &mut Balance) -> Verdict {
+        match A::examine(system, balance) {
+            Verdict::Accept => B::examine(system, balance),
+            verdict => verdict,
+        }
     }
 
     fn accept(system: &mut S) {

@@ -119,4 +119,6 @@ reasons! {
     SheaveStops sheave_stops;
     /// Momentum is lost where stock of a reel rides with a body that moves freely.
     StockMomentum stock_momentum;
+    /// Momentum that the step takes cannot be restored without making energy.
+    OwedMomentum owed_momentum;
 }

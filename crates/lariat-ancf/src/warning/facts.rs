@@ -22,6 +22,7 @@ impl Warning {
             | Warning::RoundedEnds { .. }
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
+            | Warning::CutShort { .. }
             | Warning::TwistSlips { .. } => Level::Wrong,
             Warning::CoarseMesh { .. }
             | Warning::CoarseMotion { .. }
@@ -55,6 +56,7 @@ impl Warning {
             | Warning::CoarseContact { cable, .. }
             | Warning::HighRestitution { cable, .. }
             | Warning::FrictionLags { cable, .. }
+            | Warning::CutShort { cable, .. }
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
             | Warning::TwistSlips { cable, .. }
@@ -83,7 +85,7 @@ impl Judged for Warning {
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::PassedThrough { .. } => Sign::Crossing,
-            Warning::LongSteps { .. } | Warning::NotResolved { .. } => Sign::Steps,
+            Warning::LongSteps { .. } | Warning::NotResolved { .. } | Warning::CutShort { .. } => Sign::Steps,
             Warning::CoarseMesh { .. }
             | Warning::CoarseMotion { .. }
             | Warning::CoarseElement { .. }
@@ -132,6 +134,7 @@ impl Judged for Warning {
             Warning::Sinks { share, .. } => *share,
             Warning::PassedThrough { steps, .. }
             | Warning::NotResolved { steps, .. }
+            | Warning::CutShort { steps, .. }
             | Warning::FrictionLags { steps, .. } => *steps as f64,
             Warning::TwistSlips { slips, .. } => *slips as f64,
             // the more beyond the sizes of cables the smaller the number, or there is none

@@ -230,6 +230,17 @@ pub enum Warning {
         /// Number of such steps.
         steps: u64,
     },
+    /// A limit to the work cut steps short.
+    #[error(
+        "cable {cable:?}: in {steps} steps the limit to the work was reached: forces and motion have errors without a bound there, though no energy is made; try \
+         shorter host steps, more damping, less stiffness, or a larger limit"
+    )]
+    CutShort {
+        /// Name of the cable.
+        cable: String,
+        /// Number of such steps.
+        steps: u64,
+    },
     /// It is deep in what it touches, for longer than an impact takes, or at rest.
     #[error(
         "cable {cable:?}: at {arc_length_m:.4} m it lies deep in what it touches, by {share:.2} of its radius: between its points of contact, try \

@@ -20,7 +20,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 16] = [
+const LAWS: [(Law, bool); 17] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -35,12 +35,13 @@ const LAWS: [(Law, bool); 16] = [
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
     (|_, cable, _| unresolved(cable), true),
+    (|_, cable, _| cut_short(cable), true),
     (Watch::twist, true),
     (|_, cable, _| untouched(cable), true),
 ];
 
 /// Layout: the bit of warnings about sizes.
-const SIZES: u32 = 1 << 16;
+const SIZES: u32 = 1 << 17;
 
 impl Watch {
     /// Begins with a cable as it is: displacements are counted from there.
@@ -212,6 +213,12 @@ impl Watch {
 fn unresolved(cable: &Cable) -> Option<Warning> {
     let steps = cable.diagnostics().unresolved_steps;
     (steps > 0).then(|| Warning::NotResolved { cable: cable.name().to_string(), steps })
+}
+
+/// Whether a limit to the work cut steps short.
+fn cut_short(cable: &Cable) -> Option<Warning> {
+    let steps = cable.diagnostics().cut_steps;
+    (steps > 0).then(|| Warning::CutShort { cable: cable.name().to_string(), steps })
 }
 
 /// Whether the load may have exceeded its limit between two integration steps.

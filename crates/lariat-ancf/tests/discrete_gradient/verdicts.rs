@@ -50,7 +50,8 @@ fn reasons_account_for_all_iterations_and_divisions() {
             counts.by_key().filter(|(key, _)| known(key)).map(|(_, count)| count).sum::<u64>()
         };
         let iterations = (general(&sum.iterations_for, &[]), sum.iterations_for.total());
-        let divisions = (general(&sum.divisions_for, &["not_solved", "like_the_last"]), sum.divisions_for.total());
+        let divisions =
+            (general(&sum.divisions_for, &["not_solved", "like_the_last", "owed_momentum"]), sum.divisions_for.total());
         assert!(iterations.0 == iterations.1 && iterations.1 > 100, "{iterations:?}");
         assert!(divisions.0 == divisions.1 && divisions.1 > 10, "{divisions:?}");
         assert!(sum.divisions_for.like_the_last < sum.split_steps);

@@ -475,7 +475,8 @@ class World:
         """A world of this gravity (m/s^2, default (0, -9.81, 0)) and host step (s, default 1/60). ``fidelity``: of cables whose
         integrator nobody chose. ``rapier_steps``, ``max_rapier_steps``: Rapier's steps per host step. ``sleep_speed``: in m/s, below
         which cables and bodies may fall asleep; 0 = never. ``max_iterations`` (Newton iterations of each island, repeatable) or
-        ``max_time`` (wall-clock s): the work of a host step beyond which accuracy is reduced, with the event "degraded". ``warn_level``:
+        ``max_time`` (wall-clock s): the work of a host step beyond which accuracy is reduced, with the event "degraded"; by default 2000
+        iterations per 1/60 s for cables with fidelity game, and no limit for others, nor for any with ``max_time=math.inf``. ``warn_level``:
         up to which level ``warnings`` and events warn; by default of cables with fidelity game up to "wrong", of others up to "coarse". Raises
         InvalidValueError, UnknownFidelityError, UnknownKindError."""
 

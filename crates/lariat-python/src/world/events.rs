@@ -59,7 +59,7 @@ impl World {
         let (kind, cable) = match event {
             Event::Asleep(cable) => ("asleep".to_string(), Some(cable)),
             Event::Awake(cable) => ("awake".to_string(), Some(cable)),
-            Event::Degraded(cable) => ("degraded".to_string(), Some(cable)),
+            Event::Degraded { cable, .. } => ("degraded".to_string(), Some(cable)),
             Event::Broken { cable, rest: behind, how } => {
                 (rest, arc_length, tension) = (Some(self.cable(behind)), Some(how.arc_length), Some(how.tension));
                 ("broken".to_string(), Some(cable))

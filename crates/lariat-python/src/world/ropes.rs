@@ -8,7 +8,7 @@ use crate::error::{Raise, raise};
 use crate::integrator::fidelity;
 use crate::section::Section;
 use lariat_ancf::{Fidelity, Strength};
-use lariat_rapier::{Budget, Gap, JunctionHandle, Rope, RopeEnd};
+use lariat_rapier::{Budget, Gap, JunctionHandle, Rope, RopeEnd, Settings};
 use pyo3::prelude::*;
 
 /// Returns the largest work of a host step.
@@ -16,8 +16,10 @@ pub(super) fn budget(max_iterations: Option<u64>, max_time: Option<f64>) -> PyRe
     match (max_iterations, max_time) {
         (Some(_), Some(time)) => Err(invalid("max_time (s) beside max_iterations", time, "one of them, not both")),
         (Some(iterations), None) => Ok(Some(Budget::NewtonIterations(iterations))),
+        (None, None) => Ok(Settings::default().budget),
+        (None, Some(f64::INFINITY)) => Ok(None),
         (None, Some(time)) if !(time.is_finite() && time > 0.0) => Err(invalid("max_time (s)", time, "> 0")),
-        (None, time) => Ok(time.map(Budget::Time)),
+        (None, Some(time)) => Ok(Some(Budget::Time(time))),
     }
 }
 

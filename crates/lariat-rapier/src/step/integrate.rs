@@ -35,27 +35,25 @@ struct Job<'a> {
 
 impl Job<'_> {
     fn run(&mut self) {
-        let limit = self.prediction.budget.limit();
+        let limit = self.prediction.budget.limit(&self.integrator);
         let outcome = if self.island.is_loose() {
             let (h, integrator) = (self.h, &self.integrator);
-            self.cables.iter_mut().try_for_each(|cable| {
-                step_within(limit.as_ref(), integrator, |integrator| cable.step_with(h, integrator))
-            })
+            self.cables
+                .iter_mut()
+                .try_for_each(|cable| step_within(&limit, integrator, |integrator| cable.step_with(h, integrator)))
         } else {
             let mut solver = SOLVERS.with_borrow_mut(Vec::pop).unwrap_or_default();
-            let outcome = self.step_island(&mut solver, limit.as_ref());
+            let outcome = self.step_island(&mut solver, &limit);
             SOLVERS.with_borrow_mut(|solvers| solvers.push(solver));
             outcome
         };
-        if let Some(limit) = &limit {
-            self.prediction.budget.update(limit);
-            self.prediction.degraded |= limit.has_reduced();
-        }
+        self.prediction.budget.update(&limit);
+        self.prediction.degraded |= limit.has_reduced();
         self.prediction.error = outcome.err().map(Error::from);
     }
 
     /// Steps cables and members in equal parts, and adds up the accounts of the pins.
-    fn step_island(&mut self, solver: &mut IslandSolver, limit: Option<&WorkLimit>) -> Result<(), lariat_ancf::Error> {
+    fn step_island(&mut self, solver: &mut IslandSolver, limit: &WorkLimit) -> Result<(), lariat_ancf::Error> {
         let Job { island, cables, prediction, integrator, h } = self;
         let Prediction { start, end, accounts, parts, sheaves, coupled, .. } = &mut **prediction;
         solver.set_cable_pairs(Some(&island.pairs));

@@ -126,7 +126,7 @@ pub(crate) fn begin(
     if dt > 0.0 {
         stepper.events.clear();
         stepper.failures.clear();
-        stepper.budget = Remaining::new(settings.budget);
+        stepper.budget = Remaining::new(settings.budget, f64::from(dt));
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
         let new = contents.held_bodies().filter(|&body| contents.records.get(body).is_none());
         new.chain(contents.records.handles()).for_each(|body| body::update_mass(world, body));
@@ -252,9 +252,15 @@ fn predict_islands(
     reels::follow(contents);
     for (island, prediction) in islands.list.iter().zip(predictions.iter_mut()) {
         if core::mem::take(&mut prediction.degraded) {
-            for event in island.cables.iter().map(|&c| Event::Degraded(CableHandle(c as u32))) {
-                if !events.contains(&event) {
-                    events.push(event);
+            let spent = prediction.budget.spent;
+            for cable in island.cables.iter().map(|&c| CableHandle(c as u32)) {
+                let told = events.iter_mut().find_map(|event| match event {
+                    Event::Degraded { cable: other, iterations } if *other == cable => Some(iterations),
+                    _ => None,
+                });
+                match told {
+                    Some(iterations) => *iterations = spent,
+                    None => events.push(Event::Degraded { cable, iterations: spent }),
                 }
             }
         }

@@ -34,8 +34,9 @@ pub struct Settings {
     /// the steps of fidelity game.
     #[serde(default)]
     pub warn_level: Option<Level>,
-    /// The largest amount of work in a host step. Default: no limit.
-    #[serde(default)]
+    /// The largest amount of work in a host step; `None` for no limit. Default: [that of
+    /// games](Budget::Games), which bounds the host steps of islands with fidelity game.
+    #[serde(default = "budget")]
     pub budget: Option<Budget>,
 }
 
@@ -62,6 +63,10 @@ fn fidelity() -> Fidelity {
     Fidelity::Game
 }
 
+fn budget() -> Option<Budget> {
+    Some(Budget::Games)
+}
+
 fn max_rapier_steps() -> u32 {
     MAX_RAPIER_STEPS
 }
@@ -75,7 +80,7 @@ impl Default for Settings {
             fidelity: fidelity(),
             watch: watch(),
             warn_level: None,
-            budget: None,
+            budget: budget(),
         }
     }
 }

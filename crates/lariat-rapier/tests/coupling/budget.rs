@@ -32,7 +32,7 @@ fn measure((mut world, mut set): (PhysicsWorld, CableSet)) -> (u64, usize, f64) 
         let before = iterations(&set);
         set.step(&mut world).unwrap();
         most = iterations(&set).iter().zip(&before).map(|(now, before)| now - before).fold(most, u64::max);
-        degraded += set.events().iter().filter(|event| matches!(event, Event::Degraded(_))).count();
+        degraded += set.events().iter().filter(|event| matches!(event, Event::Degraded { .. })).count();
         highest = highest.max(set.energy(&world).unwrap().total());
     }
     (most, degraded, (highest - kinetic) / kinetic.abs())
@@ -74,4 +74,41 @@ fn a_budget_that_is_not_spent_changes_nothing() {
         assert!(end(None) == end(Some(Budget::NewtonIterations(1_000_000))));
         assert!(end(None) == end(Some(Budget::Time(1e6))));
     }
+}
+
+/// The budget that games have by default is not spent by an ordinary host step, and changes nothing, to the bit; error control has none.
+#[test]
+fn the_budget_of_games_changes_no_ordinary_step() {
+    assert_eq!(CableSet::new().settings.budget, Some(Budget::Games));
+    for (fidelity, steps) in [(Fidelity::Engineering, 2), (Fidelity::Game, 30)] {
+        let end = |budget| {
+            let (mut world, mut set) = thrown(fidelity, budget);
+            for _ in 0..steps {
+                set.step(&mut world).unwrap();
+                assert!(!set.events().iter().any(|event| matches!(event, Event::Degraded { .. })));
+            }
+            bits(&world, &set)
+        };
+        assert!(end(None) == end(Some(Budget::Games)));
+    }
+}
+
+/// What a budget cuts short is told: by an event with the cost of the island, and by a warning that counts the steps; the run goes the
+/// same way to the bit again.
+#[test]
+fn what_is_cut_short_is_told_and_replays() {
+    let end = || {
+        let (mut world, mut set) = thrown(Fidelity::Game, Some(Budget::NewtonIterations(3)));
+        let mut most = 0;
+        for _ in 0..20 {
+            set.step(&mut world).unwrap();
+            let of_event = |event: &Event| if let Event::Degraded { iterations, .. } = event { *iterations } else { 0 };
+            most = set.events().iter().map(of_event).fold(most, u64::max);
+        }
+        let told = set.warnings(&world);
+        let told = told.iter().filter(|w| w.to_string().contains("the limit to the work was reached")).count();
+        assert!(most > 3 && told > 0, "{most} {told}");
+        bits(&world, &set)
+    };
+    assert!(end() == end());
 }

@@ -149,7 +149,7 @@ fn series(masses: &[Real], section: Section, damping: f64, pull: f64) -> ([f64; 
         if k < 480 {
             continue;
         }
-        degraded |= set.events().iter().any(|event| matches!(event, Event::Degraded(_)));
+        degraded |= set.events().iter().any(|event| matches!(event, Event::Degraded { .. }));
         for &wire in &wires {
             let now = tension(&set, wire, 1.0);
             let nodes = set.get(wire).unwrap().velocities().as_chunks::<6>().0.iter();

@@ -104,7 +104,7 @@ impl Series {
             if let Err(error) = set.step(&mut world) {
                 return (vec![], vec![error.to_string()]);
             }
-            degraded |= set.events().iter().any(|event| matches!(event, Event::Degraded(_)));
+            degraded |= set.events().iter().any(|event| matches!(event, Event::Degraded { .. }));
             for (hook, pull) in hooks.iter().zip(&mut pulls) {
                 let force = set.attachment(*hook).unwrap().force().x;
                 let window = match k / half_second {

@@ -50,7 +50,11 @@ pub(crate) trait DiscreteGradientSystem {
     /// controlled.
     fn propose(&mut self, step: f64);
 
-    /// Makes the end of the step the present state.
+    /// Lets the terms take what must not be left when the step ends, and returns their verdict
+    /// about that end.
+    fn finish(&mut self, balance: &mut Balance) -> Verdict;
+
+    /// Makes the end of the step, which is finished, the present state.
     fn accept(&mut self, balance: Balance);
 
     /// Counts an event.

@@ -27,7 +27,9 @@
 //! turn: whether its forces are those of its law and of the linear solve, to 1e-3; and whether it
 //! must change its law for this step, whereupon the iteration goes on. When the iteration has ended
 //! a term may find what no iteration makes good; then the step is divided, but in the last
-//! division. Every iteration beyond the first and every division is counted with its reason.
+//! division. So it is where a term finds, when all have taken from the end of the step what they
+//! take, that momentum is lost; up to three deep. Every iteration beyond the first and every
+//! division is counted with its reason.
 //!
 //! # Alternatives considered
 //!
@@ -40,8 +42,8 @@ use crate::integrate::WorkLimit;
 use crate::one_leg::OneLeg;
 use crate::scales::integrate::{
     ALPHA, CLOSURE_OF_WEIGHT, FORCE_TOLERANCE_OF_STEP, FORCE_TOLERANCE_UNDER_CONTROL, LARGEST_IMBALANCE, LAW_ROUNDING,
-    MAX_DEPTH, MAX_FOR_FORCES, MAX_ITERATIONS_OF_LAWS, MAX_ITERATIONS_OF_STEP, MAX_LEFT, PARTS,
-    SHARE_OF_HALF_THE_ENERGY,
+    MAX_DEPTH, MAX_DEPTH_OF_ENDS, MAX_FOR_FORCES, MAX_ITERATIONS_OF_LAWS, MAX_ITERATIONS_OF_STEP, MAX_LEFT,
+    MOMENTUM_TOLERANCE_OF_STEP, MOMENTUM_TOLERANCE_UNDER_CONTROL, PARTS, SHARE_OF_HALF_THE_ENERGY,
 };
 use crate::scales::term::CLOSURE;
 use crate::term::{Balance, Reason, Settled, Stage, StepStart, Verdict};
@@ -53,6 +55,8 @@ pub(super) struct Demand<'a> {
     pub leg: OneLeg,
     /// Share of the impulses that may be unbalanced.
     pub imbalance: f64,
+    /// Share of the motion by which momenta may be off at the end.
+    pub may_owe: f64,
     /// Number of iterations after which that is no longer asked for: a slack cable has hardly any.
     pub for_forces: usize,
     /// Largest estimated error in m.
@@ -68,6 +72,7 @@ impl Demand<'_> {
     pub const FIXED: Self = Demand {
         leg: OneLeg::new(ALPHA),
         imbalance: FORCE_TOLERANCE_OF_STEP,
+        may_owe: MOMENTUM_TOLERANCE_OF_STEP,
         for_forces: MAX_FOR_FORCES,
         allowed: f64::INFINITY,
         is_controlled: false,
@@ -76,6 +81,7 @@ impl Demand<'_> {
     /// Of steps whose error is controlled: what the iteration leaves is then below the estimate.
     pub const CONTROLLED: Self = Demand {
         imbalance: FORCE_TOLERANCE_UNDER_CONTROL,
+        may_owe: MOMENTUM_TOLERANCE_UNDER_CONTROL,
         for_forces: MAX_ITERATIONS_OF_STEP,
         is_controlled: true,
         ..Demand::FIXED
@@ -216,17 +222,24 @@ fn iterate<S: DiscreteGradientSystem>(system: &mut S, demand: &Demand<'_>) -> Re
     }
 }
 
-/// Makes the end of the step the present state, if its error is not too large.
+/// Makes the end of the step of `h` (s) the present state, if its error is not too large; divides
+/// it where a term finds something there that shorter steps do not leave.
 fn accept<S: DiscreteGradientSystem>(
     system: &mut S,
-    balance: Balance,
-    (depth, demand): (usize, &Demand<'_>),
+    mut balance: Balance,
+    (h, depth): (f64, usize),
+    demand: &Demand<'_>,
 ) -> Result<Advanced, StepFailure> {
     // the parts of a step are taken in any case
     let is_controlled = demand.is_controlled && depth == 0;
     let error = if is_controlled { system.error() } else { 0.0 };
     if error > demand.allowed {
         return Ok(Advanced::TooFar(error));
+    }
+    let verdict = system.finish(&mut balance);
+    let may_divide = depth < MAX_DEPTH_OF_ENDS && !demand.limit.is_some_and(WorkLimit::is_spent);
+    if let Some(reason) = verdict.reason().filter(|_| may_divide) {
+        return divide(system, h, (depth, reason), demand);
     }
     system.accept(balance);
     demand.limit.into_iter().for_each(WorkLimit::note_progress);
@@ -246,7 +259,13 @@ pub(super) fn step<S: DiscreteGradientSystem>(
     let limit = demand.limit;
     // of the shortest step the energy law alone must hold
     let shortest = depth == MAX_DEPTH;
-    system.predict(&StepStart { h, leg: demand.leg, divided: depth > 0, divisible: !shortest });
+    system.predict(&StepStart {
+        h,
+        leg: demand.leg,
+        divided: depth > 0,
+        divisible: !shortest,
+        may_owe: demand.may_owe,
+    });
     let outcome = iterate(system, demand);
     let reduced = limit.is_some_and(WorkLimit::reduces);
     let mut reason = Reason::NotSolved;
@@ -261,7 +280,7 @@ pub(super) fn step<S: DiscreteGradientSystem>(
         };
         let kept = keeps_law(&balance);
         if may_end && kept && (law == Verdict::Accept || shortest) {
-            return accept(system, balance, (depth, demand));
+            return accept(system, balance, (h, depth), demand);
         }
         let may_rescale = || {
             let right = is_almost_solved(&balance) && system.verdict(&balance, Stage::Rescaling) == Verdict::Accept;
@@ -271,10 +290,10 @@ pub(super) fn step<S: DiscreteGradientSystem>(
         let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
         if may_rescale && system.rescale(&mut balance, largest_share) {
             system.count(Event::Rescaled);
-            return accept(system, balance, (depth, demand));
+            return accept(system, balance, (h, depth), demand);
         }
         if reduced && kept {
-            return accept(system, balance, (depth, demand));
+            return accept(system, balance, (h, depth), demand);
         }
         reason = law.reason().or(found.reason()).unwrap_or(reason);
     }

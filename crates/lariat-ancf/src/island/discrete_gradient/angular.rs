@@ -1,13 +1,13 @@
 //! The angular momentum of an island that nothing holds, or one point at rest, over a step.
 //! Equations: `system/angular.rs`.
 
-use super::IslandStep;
 use super::body::BodyStep;
+use super::{CableBuffers, IslandStep};
 use crate::island::hold::vector;
 use crate::support::{SlopeSupport, Support};
-use crate::system::angular::Momenta;
+use crate::system::angular::{Momenta, Restoration};
 use crate::system::{CableStep, Source};
-use crate::term::Balance;
+use crate::term::{Balance, Reason, StepStart, StepTerm, Verdict};
 use nalgebra::Vector3;
 
 /// What holds an island.
@@ -89,7 +89,7 @@ impl IslandStep<'_, '_> {
     fn momenta(&mut self, momenta: &mut Momenta) {
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, buffers } = cable.step_parts();
-            momenta.add_cable(&mut equations, state, buffers);
+            momenta.add_cable(&mut equations, (state.time, [&state.q, &state.v]), buffers);
         }
         self.moving().for_each(|body| body.add_momenta(momenta));
     }
@@ -101,7 +101,7 @@ impl IslandStep<'_, '_> {
 
     /// Notes the angular momentum of a step of length `h` (s) when it begins, if nothing holds the
     /// island but one point.
-    pub(super) fn note_angular_momentum(&mut self, h: f64) {
+    fn note_angular_momentum(&mut self, h: f64) {
         let held = self.held(h);
         let pivot = if let Held::At(point) = held { Some(point) } else { None };
         let first = &mut self.cables[0].step_buffers;
@@ -120,31 +120,91 @@ impl IslandStep<'_, '_> {
         }
     }
 
-    /// Restores the angular momentum after an accepted step, and returns its balance with what that
-    /// does to the energy.
-    pub(super) fn restore_angular_momentum(&mut self, mut balance: Balance) -> Balance {
-        let Some(before) = self.cables[0].step_buffers.before else { return balance };
+    /// Returns whether material passes an end of a cable: what that changes is known only when the
+    /// step was accepted.
+    fn feeds_material(&self) -> bool {
+        self.cables.iter().any(|cable| !cable.system.feeds.is_empty())
+    }
+
+    /// Returns what restores the momenta at the end of the step, before or after that was
+    /// `accepted`, with the share of all motion that is owed then; and counts in the balance what
+    /// it does to the energy. `None` where nothing is restored.
+    fn find_restoration(&mut self, balance: &mut Balance, accepted: bool) -> Option<(Restoration, f64)> {
+        let first = &self.cables[0].step_buffers;
+        let (before, leg) = (first.before?, first.leg);
         if self.cables.iter().any(|cable| cable.step_buffers.contact.is_held()) {
-            return balance;
+            return None;
         }
-        let leg = self.cables[0].step_buffers.leg;
-        let (mut momenta, mut outside) = (Momenta::about(self.cables[0].step_buffers.pivot), [Vector3::zeros(); 2]);
+        let (mut momenta, mut outside) = (Momenta::about(first.pivot), [Vector3::zeros(); 2]);
         let mut add = |own: [Vector3<f64>; 2]| (0..2).for_each(|i| outside[i] += own[i]);
-        for cable in self.cables.iter_mut() {
-            let CableStep { equations, state, buffers } = cable.step_parts();
+        for (cable, CableBuffers { end, .. }) in self.cables.iter_mut().zip(&mut self.buffers.cables) {
+            let CableStep { mut equations, state, buffers } = cable.step_parts();
             buffers.outside.iter().for_each(|own| add(*own));
-            momenta.add_second_difference(equations.system, state, buffers);
+            let time = if accepted { state.time } else { state.time + buffers.h };
+            let [q, v] = if accepted {
+                [&state.q, &state.v]
+            } else {
+                equations.end_of_step(state, buffers, end);
+                let [q, v] = &*end;
+                [q, v]
+            };
+            momenta.add_second_difference(equations.system, q, buffers);
+            momenta.add_cable(&mut equations, (time, [q, v]), buffers);
         }
         for body in self.moving() {
-            add(body.outside_impulses());
-            body.add_second_difference(&mut momenta);
+            let mut end = body.clone();
+            if !accepted {
+                end.accept();
+            }
+            add(end.outside_impulses());
+            end.add_second_difference(&mut momenta);
+            end.add_momenta(&mut momenta);
         }
-        self.momenta(&mut momenta);
-        let owed = &mut self.cables[0].snapshot.state.memory.differences.owed;
-        let (turn, after) = momenta.restore(owed, (before, outside), (leg, &mut balance));
+        let owed = self.cables[0].snapshot.state.memory.differences.owed;
+        let restoration = momenta.restore(owed, (before, outside), (leg, balance));
+        Some((restoration, momenta.share_of(&restoration.owed, balance.weight)))
+    }
+
+    /// Restores the momenta after an accepted step, and returns its balance with what that does to
+    /// the energy.
+    pub(super) fn restore_momenta(&mut self, mut balance: Balance) -> Balance {
+        let restoration = match self.buffers.restoration.take() {
+            None if self.feeds_material() => self.find_restoration(&mut balance, true).map(|(found, _)| found),
+            found => found,
+        };
+        let Some(Restoration { turn, after, owed }) = restoration else { return balance };
+        self.cables[0].snapshot.state.memory.differences.owed = owed;
         self.cables[0].step_buffers.after = Some(after);
         self.cables.iter_mut().for_each(|cable| turn.turn_cable(&mut cable.snapshot.state));
         self.buffers.bodies.iter_mut().filter(|body| !body.is_driven()).for_each(|body| body.turn(&turn));
         balance
+    }
+}
+
+/// The momenta of what nothing holds, or one point, as a term of a step.
+///
+/// Its verdict: a step is divided at whose end more momentum is owed than a small share of the
+/// motion, because there is no energy from which it could be restored.
+pub(super) struct Momentum;
+
+impl StepTerm<IslandStep<'_, '_>> for Momentum {
+    /// None: it is of no feature, but of all that moves.
+    fn name(_: &mut Vec<&'static str>) {}
+
+    fn begin(island: &mut IslandStep<'_, '_>, step: &StepStart) {
+        island.note_angular_momentum(step.h);
+        (island.buffers.restoration, island.buffers.may_owe) = (None, step.may_owe);
+    }
+
+    fn examine(island: &mut IslandStep<'_, '_>, balance: &mut Balance) -> Verdict {
+        if island.feeds_material() {
+            return Verdict::Accept;
+        }
+        let found = island.find_restoration(balance, false);
+        island.buffers.restoration = found.map(|(restoration, _)| restoration);
+        match found {
+            Some((_, owed)) if owed > island.buffers.may_owe => Verdict::Divide(Reason::OwedMomentum),
+            _ => Verdict::Accept,
+        }
     }
 }

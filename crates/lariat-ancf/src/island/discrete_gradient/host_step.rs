@@ -8,7 +8,7 @@
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::error::{Error, StepFailure};
-use crate::integrate::{ErrorNorm, IntegratorRef, discrete_gradient};
+use crate::integrate::{ErrorNorm, IntegratorRef, WorkLimit, discrete_gradient};
 use crate::island::body::{BodyMemory, RigidBody};
 use crate::island::dynamics::{IslandDynamics, Vectors};
 use crate::island::equations::{IslandEquations, Matrices};
@@ -52,6 +52,7 @@ impl HostStep<'_, '_> {
             diagnostics.steps += counts.steps;
             diagnostics.rejected_steps += counts.rejected;
             diagnostics.unresolved_steps += counts.unresolved;
+            diagnostics.cut_steps += u64::from(integrator.limit.is_some_and(WorkLimit::has_reduced));
         }
         if let Err(failed) = outcome {
             let within = self.cables.iter().try_for_each(|cable| cable.check_reach_of_reels(dt));

@@ -27,7 +27,6 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn predict(&mut self, step: &StepStart) {
-        self.note_angular_momentum(step.h);
         Terms::begin(self, step);
     }
 
@@ -80,11 +79,15 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         self.cables.iter_mut().for_each(|cable| cable.snapshot.state.memory.step = step);
     }
 
-    fn accept(&mut self, mut balance: Balance) {
-        Terms::finish(self, &mut balance);
+    fn finish(&mut self, balance: &mut Balance) -> Verdict {
+        Terms::finish(self, balance);
+        Terms::examine(self, balance)
+    }
+
+    fn accept(&mut self, balance: Balance) {
         self.buffers.unsteady = self.has_impact();
         Terms::accept(self);
-        let balance = self.restore_angular_momentum(balance);
+        let balance = self.restore_momenta(balance);
         // the law is that of the whole: the first cable keeps it
         self.cables[0].system.meter.law.add(&balance);
         for cable in self.cables.iter_mut() {

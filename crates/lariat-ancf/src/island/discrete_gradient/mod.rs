@@ -52,6 +52,7 @@ use crate::contact::{BodyPath, CablePair, PairStep};
 use crate::scales::island::MIN_SLOPE;
 use crate::state::State;
 use crate::support::SlopeSupport;
+use crate::system::angular::Restoration;
 use crate::system::{CableStep, Unknowns};
 use body::BodyStep;
 use holds::HoldStep;
@@ -80,6 +81,10 @@ pub(super) struct StepBuffers {
     pub may_touch: Option<Vec<CablePair>>,
     /// Rates of reels that are unknown, and sheaves.
     pub unknowns: Unknowns,
+    /// What restores the momenta after the step, if that is known when it ends.
+    restoration: Option<Restoration>,
+    /// Share of the motion that may be owed after it.
+    may_owe: f64,
     /// Whether velocities jumped at the end of the last step.
     unsteady: bool,
     /// By pin, velocity of node and slope beside those of the body when the host step began.
@@ -94,6 +99,8 @@ pub(super) struct CableBuffers {
     pairs: Vec<usize>,
     /// The cable at the beginning of the host step.
     pub start: State,
+    /// Coordinates and velocities at the end of the step.
+    end: [Vec<f64>; 2],
 }
 
 /// An island during one host step.
