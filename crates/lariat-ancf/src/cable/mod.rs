@@ -3,6 +3,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | [`builder`], `layout` | building a cable |
+//! | `grading` | its nodes, even or graded towards points |
 //! | `unstrained` | laying it around corners without strain |
 //! | `corner` | corners of the drawn shape, for parts that end there |
 //! | `clamp` | clamps, their directions, and the start shape between them |
@@ -30,6 +31,7 @@ mod contact;
 mod corner;
 mod effects;
 pub mod energy;
+mod grading;
 mod layout;
 pub mod linearise;
 mod loads;
