@@ -19,12 +19,14 @@
 //! | `prescribe` | points that are led to a place |
 //! | `reel` | reels at the ends, which change the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
+//! | `carried` | tension and moment where equilibrium gives them |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
 //! | `workspace` | buffers of a step, shared by cables |
 
 mod as_laid;
 pub mod builder;
+mod carried;
 mod check;
 mod clamp;
 mod contact;
@@ -66,6 +68,7 @@ use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
 use as_laid::{AsDrawn, Sagging};
+pub(crate) use carried::Layer;
 pub(crate) use check::check_integrator;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
