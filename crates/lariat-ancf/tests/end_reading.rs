@@ -126,10 +126,11 @@ fn the_moment_at_a_load_is_that_of_a_beam_under_tension() {
             println!("{elements} elements, {s}: {:.2} % off", 100.0 * off);
             assert!(off.abs() < 0.02, "{off}");
         }
-        assert!(coarse_moment(&cable).is_none());
-        // on an even mesh it is told
+        // on an even mesh it differs from that of the polynomial, and nothing feels it
         let coarse = settled(span.builder(elements).fix(At::Start).fix(At::End).load(load).node_at(middle));
-        assert!(coarse_moment(&coarse).is_some());
+        let read = coarse.sample(middle).unwrap();
+        assert!(read.moment.norm() > 2.0 * span.bending * read.curvature.norm(), "{read:?}");
+        assert!(coarse_moment(&coarse).is_none());
     }
 }
 
@@ -169,7 +170,7 @@ fn a_swinging_cable_is_read_by_its_reaction() {
     }
 }
 
-/// A limp cable with a load amid: how far points are off is told to a factor of two, and elements that are
+/// A limp cable with a load amid: how far points are off is told to a factor of 1.3, and elements that are
 /// short at the load take it away.
 ///
 /// *Source.* Analytic: the triangle of two straight lines.
@@ -200,7 +201,7 @@ fn a_smeared_kink_is_told_with_its_error() {
         println!("{elements} elements: {off:.2e} m of {exact:.4} m, told {told:?}");
         match &told {
             None => assert!(off < 0.02, "{off}"),
-            Some((error, _)) => assert!((0.5 * off..2.0 * off).contains(error), "{error} {off}"),
+            Some((error, _)) => assert!((off / 1.3..1.3 * off).contains(error), "{error} {off}"),
         }
         assert!(off < 0.6 * before);
         before = off;

@@ -44,6 +44,8 @@ pub(crate) struct Layer {
     pub strain: f64,
     /// Angle between tangent and force in rad.
     pub angle: f64,
+    /// Whether the slope is held, so that the moment is felt.
+    pub held: bool,
 }
 
 impl Cable {
@@ -107,6 +109,7 @@ impl Cable {
                     force,
                     strain: force / element.section.axial_stiffness,
                     angle,
+                    held,
                 });
             }
         }

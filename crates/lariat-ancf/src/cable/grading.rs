@@ -118,7 +118,7 @@ impl Sizes {
         let mut bounds = [0.0, MOST_GROWTH.ln()];
         let least = of(bounds[1]).elements_to(length).ceil();
         let what = format!(
-            "number of elements of a mesh that begins with elements of {finest} m, each {MOST_GROWTH} times as long as the last at most, of which it needs {least}"
+            "number of elements ({least} are needed from {finest} m on, each at most {MOST_GROWTH} times as long as the last)"
         );
         require(&what, count, count >= least, "as many")?;
         for _ in 0..f64::MANTISSA_DIGITS {

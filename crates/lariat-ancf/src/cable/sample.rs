@@ -13,15 +13,17 @@
 //! antisymmetric about the middle of each element, and in proportion to the element's length. The
 //! tension that is read is averaged there, with weights that make this error vanish, `(h_2 N_1 +
 //! h_1 N_2)/(h_1 + h_2)`, and what is added to reach the averages is quadratic in the element and
-//! vanishes in its middle, which is right already. That makes it second order
-//! (`tests/tension.rs`); the jump is given as its uncertainty.
+//! vanishes in its middle, which is right already; at an end, and at a node where the tension
+//! itself jumps (a support, a point load, another section), it is the opposite of what is added at
+//! the other node. That makes it second order (`tests/tension.rs`); the jump is given as its
+//! uncertainty.
 //!
-//! At an end, and at a node where the tension itself jumps (a support, a point load, another
-//! section), tension and moment are those of [equilibrium](crate::system::carried), which with the
-//! other side of the node make the [reaction](Cable::reactions). What is added to the moment to
-//! reach them is `P_2(2 xi - 1)` times a linear function, which vanishes at the Gauss points. Where
-//! equilibrium is not known, the tension at such a node is the opposite of what is added at the
-//! other node, and the moment is raw.
+//! At an end and at such a node itself, tension and moment are those of
+//! [equilibrium](crate::system::carried), which with the other side of the node make the
+//! [reaction](Cable::reactions): the tension is then the force along the tangent, from which N
+//! differs by `M kappa`, for this curvature is one per deformed length. What is added to the moment
+//! beside them to reach it is `P_2(2 xi - 1)` times a linear function, which vanishes at the Gauss
+//! points. Where equilibrium is not known, all is as beside these nodes, and the moment is raw.
 //!
 //! # References
 //!
@@ -34,6 +36,7 @@ use crate::element::shape::{self, combine};
 use crate::element::variable_length::feed_weights;
 use crate::error::Error;
 use crate::rule::BendingRule;
+use crate::scales::cable::AT_NODE;
 use crate::system::{Carried, NodeTension, Pull, Reading, missing_at_ends};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -50,8 +53,8 @@ pub struct Sample {
     pub slope: Vector3<f64>,
     /// Green strain (r'.r' - 1)/2, projected on linear functions inside the element.
     pub green_strain: f64,
-    /// Tension EA eps f in N, averaged at nodes, and by equilibrium at those that are held, loaded
-    /// or ends; negative = compression.
+    /// Tension EA eps f in N, averaged at nodes, and by equilibrium, as force along the tangent, at
+    /// those that are held, loaded or ends; negative = compression.
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
@@ -59,7 +62,8 @@ pub struct Sample {
     /// held, loaded or ends. Where |r'| < 1/2, the continued power of the bending rule.
     pub moment: Vector3<f64>,
     /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before
-    /// averaging; all of the tension where no node can judge.
+    /// averaging; at a node that equilibrium judges, what the strain misses; all of the tension
+    /// where nothing can judge.
     pub tension_uncertainty: f64,
 }
 
@@ -80,17 +84,16 @@ impl Cable {
         let raw = self.sample_in(e, xi);
         let by_equilibrium = [e, e + 1].map(|node| self.is_read_by_equilibrium(node, self.arc_length_of(node)));
         let carried = if by_equilibrium.contains(&true) { self.carried(e) } else { None };
-        let tension = |k: usize| match &carried {
-            Some(carried) if by_equilibrium[k] => {
-                let missing = carried[k].tension - self.reading().ends(e)[k].tension;
-                Some(NodeTension { missing: [missing; 2], jump: missing.abs() })
-            }
-            _ => self.node_tension(e + k),
-        };
-        let (from, to) = (tension(0), tension(1));
         let moment = carried.map_or(raw.moment, |carried| raw.moment + self.missing_moment(e, xi, carried));
+        let near = AT_NODE * self.length() / self.elements()[e].length;
+        let node = [xi, 1.0 - xi].into_iter().position(|distance| distance <= near);
+        if let (Some(carried), Some(k)) = (&carried, node.filter(|&k| by_equilibrium[k])) {
+            let tension = carried[k].tension;
+            return Sample { tension, tension_uncertainty: (tension - raw.tension).abs(), moment, ..raw };
+        }
+        let (from, to) = (self.node_tension(e), self.node_tension(e + 1));
         let jumps = from.into_iter().chain(to).map(|node| node.jump);
-        let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return raw };
+        let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return Sample { moment, ..raw } };
         let [start, end] = missing_at_ends(from, to);
         let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
         Sample { tension: raw.tension + missing, tension_uncertainty, moment, ..raw }

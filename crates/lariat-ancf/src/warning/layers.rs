@@ -3,18 +3,19 @@
 //!
 //! # Validity
 //!
-//! By the layer of an elastica, as `cable/carried.rs` has it: the moment is told where the mesh has
-//! it 10 % larger, and bending strains the cable by a tenth of what tension does, `d/2 M/EI = 2
-//! theta sqrt(F/EA)` of a solid round section; the position where it is off by 2e-3 of the length.
-//! Both errors are of first order in the length of the elements beside the point, and in nothing
-//! else: a [graded](crate::CableBuilder::finest) mesh takes them away.
+//! By the layer of an elastica, as `cable/carried.rs` has it: the moment of a clamp is told where
+//! the mesh has it 10 % larger, and bending strains the cable by a tenth of what tension does, `d/2
+//! M/EI = 2 theta sqrt(F/EA)` of a solid round section; the position where it is off by 2e-3 of the
+//! length. Both errors are of first order in the length of the elements beside the point, and in
+//! nothing else: a [graded](crate::CableBuilder::finest) mesh takes them away. Nothing feels the
+//! moment at a load or a held point whose slope is free, and it is not told.
 
 use super::Warning;
 use super::advised::AdvisedMesh;
 use crate::at::At;
 use crate::cable::{Cable, Layer};
 use crate::scales::cable::AT_NODE;
-use crate::scales::watch::{BENDS, ERROR, FINEST, GROWTH, MOMENT, MOST};
+use crate::scales::watch::{BENDS, ERROR, FINEST, GROWTH, MOMENT, MOST, SMEARED};
 use crate::watch::{CoarseKink, CoarseMoment, Layers};
 
 impl Layers {
@@ -22,14 +23,14 @@ impl Layers {
     pub(super) fn note(&mut self, cable: &Cable) {
         let limit = ERROR * cable.length();
         cable.visit_layers(|layer| {
-            let Layer { arc_length: at, element, scale, moments, force, strain, angle } = layer;
+            let Layer { arc_length: at, element, scale, moments, force, strain, angle, held } = layer;
             let [mesh, elastica] = moments;
-            let bends = 2.0 * (0.5 * angle).sin() > BENDS * strain.sqrt();
+            let bends = held && 2.0 * (0.5 * angle).sin() > BENDS * strain.sqrt();
             let worse = |other: CoarseMoment| mesh * other.moments[1] > other.moments[0] * elastica;
             if elastica > 0.0 && mesh > (1.0 + MOMENT) * elastica && bends && self.moment.is_none_or(worse) {
                 self.moment = Some(CoarseMoment { at, moments, scale });
             }
-            let error = (mesh - elastica) / force;
+            let error = SMEARED * (mesh - elastica) / force;
             if error > limit && self.kink.is_none_or(|other| error > other.error) {
                 self.kink = Some(CoarseKink { at, error, element });
             }

@@ -57,8 +57,8 @@ pub enum Warning {
         /// Number of elements that would do.
         enough: usize,
     },
-    /// A moment at a clamp, a load or a held point is that of the elements beside it, which are
-    /// longer than what bends there.
+    /// The moment of a clamp is that of the elements beside it, which are longer than what bends
+    /// there.
     #[error(
         "cable {cable:?}: at {arc_length_m:.4} m it bends within {layer_m:.2e} m, which the mesh with elements = {elements} does not resolve: the moment there, {moment_nm:.3e} N m, \
          would be some {elastica_nm:.3e} N m: try {enough}"

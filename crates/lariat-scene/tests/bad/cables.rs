@@ -82,7 +82,7 @@ const CASES: &[Case] = &[
         &["cable.sling.elements.at", "3 m is not on the cable"],
     ),
     ("elements = 10", "elements = { count = 30, finest = 0.5 }", 6, &["finest elements", "below the mean length"]),
-    ("elements = 10", "elements = { count = 4, finest = 1e-3 }", 6, &["number of elements", "of which it needs 18"]),
+    ("elements = 10", "elements = { count = 4, finest = 1e-3 }", 6, &["number of elements", "20 are needed"]),
     ("section = { square = 0.01 }", "", 6, &["cable.sling.section: missing key", "square = number"]),
     ("section = { square = 0.01 }", "section = { square = -0.01 }", 11, &["cable.sling.section.square: -0.01"]),
     (
