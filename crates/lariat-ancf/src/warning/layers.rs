@@ -77,7 +77,8 @@ fn advised(cable: &Cable, at: f64, finest: f64) -> AdvisedMesh {
     });
     if points.len() == 1 {
         let mean = cable.length() / cable.elements().len() as f64;
-        (add(mean), add(mean));
+        add(mean);
+        add(mean);
     }
     points.sort_by(f64::total_cmp);
     points.dedup();
