@@ -19,7 +19,7 @@
 //! uncertainty.
 //!
 //! At an end and at such a node itself, tension and moment are those of
-//! [equilibrium](crate::system), which with the other side of the node make the
+//! equilibrium (`system/carried.rs`), which with the other side of the node make the
 //! [reaction](Cable::reactions): the tension is then the force along the tangent, from which N
 //! differs by `M kappa`, for this curvature is one per deformed length. What is added to the moment
 //! beside them to reach it is `P_2(2 xi - 1)` times a linear function, which vanishes at the Gauss
