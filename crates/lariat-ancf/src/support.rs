@@ -182,6 +182,11 @@ impl Support {
         self.position.is_some() || self.attached
     }
 
+    /// True if the slope is not free.
+    pub(crate) fn holds_slope(&self) -> bool {
+        self.slope != SlopeSupport::Free
+    }
+
     /// Removes the held components from a nodal vector (r, t).
     pub(crate) fn project(&self, x: &mut [f64]) {
         if self.holds_position() {

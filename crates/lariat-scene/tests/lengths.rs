@@ -1,4 +1,4 @@
-//! Cables by tension or sag instead of a length, and sections by name.
+//! Cables by tension or sag instead of a length, sections by name, and graded elements.
 
 use lariat_scene::{Purpose, Scene};
 
@@ -56,4 +56,34 @@ fn a_section_may_be_a_rope_or_a_chain_by_name() {
     ] {
         assert!(parsed(wrong).is_err(), "{wrong}");
     }
+}
+
+/// Elements grow from the points that are named, by default both ends; `--set` changes one number of them, and what
+/// cannot be graded is refused.
+#[test]
+fn elements_may_be_fine_at_some_points() {
+    let section = "axial_stiffness = 2.0e6\nbending_stiffness = 1.0\nmass_per_length = 1.5\n";
+    let graded = |elements: &str, set: &[&str]| {
+        let text = scene(section).replace("elements = 20", elements);
+        let set: Vec<String> = set.iter().map(|x| x.to_string()).collect();
+        Scene::parse("scene.toml", &text, &set, Purpose::Run).map_err(|error| error.to_string())
+    };
+    let lengths = |scene: &Scene| -> Vec<f64> {
+        scene.build_cable(0).unwrap().elements().iter().map(|element| element.length).collect()
+    };
+    let both = lengths(&graded("elements = { count = 30, finest = 0.02 }", &[]).unwrap());
+    assert_eq!(both.len(), 30);
+    assert!((both[0] - 0.02).abs() < 1e-9 && (both[29] - 0.02).abs() < 1e-9, "{both:?}");
+    let set = ["cable.line.elements.finest=0.05"];
+    let coarser = lengths(&graded("elements = { count = 30, finest = 0.02 }", &set).unwrap());
+    assert!((coarser[0] - 0.05).abs() < 1e-9, "{coarser:?}");
+    let one = lengths(&graded("elements = { count = 30, finest = 0.02, at = [\"50 %\"] }", &[]).unwrap());
+    let (first, middle) = (one[0], one[one.len() / 2]);
+    assert!(middle < 0.021 && first > 3.0, "{one:?}");
+    let reel = "elements = { count = 30, finest = 0.02 }\nreel = { end = \"end\", rate = [[0.0, 0.0]] }";
+    let error = graded(reel, &[]).unwrap_err();
+    assert!(error.contains("cable.line.elements.at") && error.contains("material runs"), "{error}");
+    let start =
+        "elements = { count = 30, finest = 0.02, at = [\"start\"] }\nreel = { end = \"end\", rate = [[0.0, 0.0]] }";
+    assert!(graded(start, &[]).is_ok());
 }

@@ -2,6 +2,7 @@
 
 use super::as_laid::Sagging;
 use super::clamp::{is_turned, unit};
+use super::grading::{self, Grading};
 use super::layout::Laid;
 use super::span::Span;
 use super::unstrained::{Kept, unstrain};
@@ -41,6 +42,8 @@ pub struct CableBuilder {
     length: Option<f64>,
     span: Option<Span>,
     elements: usize,
+    /// Length in m of the finest elements, and the points where they are.
+    grading: Option<(f64, Vec<At>)>,
     sections: Vec<(f64, Section)>,
     nodes_at: Vec<f64>,
     rule: Option<Rule>,
@@ -64,6 +67,7 @@ impl Default for CableBuilder {
             length: None,
             span: None,
             elements: 10,
+            grading: None,
             sections: Vec::new(),
             nodes_at: Vec::new(),
             rule: None,
@@ -127,6 +131,17 @@ impl CableBuilder {
     /// Number of elements. Default 10.
     pub fn elements(mut self, elements: usize) -> Self {
         self.elements = elements;
+        self
+    }
+
+    /// Grades the mesh: elements at these points, on which nodes are placed, have this length in m
+    /// at most, and the others grow from there by a constant ratio, up to the
+    /// [number](Self::elements) of elements. For cables that bend sharply where they are clamped,
+    /// held or loaded: under a tension T within `sqrt(EI/T)`, of which elements should have twice
+    /// the length there, or less. A cable with a [reel](Cable::add_reel) at such a point splits and
+    /// merges its elements by their mean length.
+    pub fn finest<A: Into<At>>(mut self, length: f64, at: impl IntoIterator<Item = A>) -> Self {
+        self.grading = Some((length, at.into_iter().map(Into::into).collect()));
         self
     }
 
@@ -310,12 +325,20 @@ impl CableBuilder {
         for (at, _) in &self.holds {
             breaks.push(arc_length(*at)?);
         }
+        let grading = match &self.grading {
+            None => None,
+            Some((finest, at)) => {
+                let points = at.iter().map(|at| arc_length(*at)).collect::<Result<Vec<f64>, Error>>()?;
+                breaks.extend(&points);
+                Some(Grading { finest: *finest, points })
+            }
+        };
         for &s in breaks.iter().chain(self.loads.iter().map(|l| &l.arc_length)) {
             if !(s >= 0.0 && s <= length * (1.0 + 1e-12)) {
                 return Err(Error::OutOfRange { cable: self.name, what: "arc length", value: s, limit: length });
             }
         }
-        let s = mesh(&mut breaks, length, self.elements);
+        let s = grading::nodes(&mut breaks, length, self.elements, grading.as_ref())?;
         let elements: Vec<Element> = s
             .windows(2)
             .map(|ends| {
@@ -445,21 +468,4 @@ impl CableBuilder {
         let end = |k: usize| Drawn { position: laid[k].position, slope: laid[k].slope, direction: directions[k] };
         [0, last].map(end).to_vec()
     }
-}
-
-/// Arc lengths of the nodes: all breaks, and between them elements of about equal length,
-/// `elements` or a few more in all.
-fn mesh(breaks: &mut Vec<f64>, length: f64, elements: usize) -> Vec<f64> {
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|a, b| *a - *b <= 1e-9 * length);
-    let last = breaks.len() - 1;
-    breaks[last] = length;
-    let mut s = vec![0.0];
-    for ends in breaks.windows(2) {
-        let piece = ends[1] - ends[0];
-        let count = ((elements as f64 * piece / length).round() as usize).max(1);
-        s.extend((1..count).map(|i| ends[0] + piece * i as f64 / count as f64));
-        s.push(ends[1]);
-    }
-    s
 }

@@ -3,6 +3,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | [`builder`], `layout` | building a cable |
+//! | `grading` | its nodes, even or graded towards points |
 //! | `unstrained` | laying it around corners without strain |
 //! | `corner` | corners of the drawn shape, for parts that end there |
 //! | `clamp` | clamps, their directions, and the start shape between them |
@@ -18,18 +19,21 @@
 //! | `prescribe` | points that are led to a place |
 //! | `reel` | reels at the ends, which change the length |
 //! | [`sample`], [`reactions`], [`energy`] | reading results |
+//! | `carried` | tension and moment where equilibrium gives them |
 //! | [`mesh`] | how far the mesh resolves the shape |
 //! | [`linearise`] | matrices at the present state |
 //! | `workspace` | buffers of a step, shared by cables |
 
 mod as_laid;
 pub mod builder;
+mod carried;
 mod check;
 mod clamp;
 mod contact;
 mod corner;
 mod effects;
 pub mod energy;
+mod grading;
 mod layout;
 pub mod linearise;
 mod loads;
@@ -64,6 +68,7 @@ use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
 use as_laid::{AsDrawn, Sagging};
+pub(crate) use carried::Layer;
 pub(crate) use check::check_integrator;
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;

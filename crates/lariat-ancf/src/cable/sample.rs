@@ -6,8 +6,8 @@
 //! inside the element*. Under bending the raw strain of this element oscillates inside it (a bent
 //! cubic cannot be inextensible everywhere); the linear projection is what the oscillation leaves
 //! unchanged, and converges one order faster. Curvature is `|r' x r''|/|r'|^3`, moment `EI kappa`
-//! about the binormal; they are read raw. A rest shape and damping change both: `N = EA (eps -
-//! eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
+//! about the binormal; the curvature is read raw. A rest shape and damping change both: `N = EA
+//! (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 //!
 //! At the nodes between elements N jumps by its error, which is of first order under bending,
 //! antisymmetric about the middle of each element, and in proportion to the element's length. The
@@ -17,6 +17,13 @@
 //! itself jumps (a support, a point load, another section), it is the opposite of what is added at
 //! the other node. That makes it second order (`tests/tension.rs`); the jump is given as its
 //! uncertainty.
+//!
+//! At an end and at such a node itself, tension and moment are those of
+//! equilibrium (`system/carried.rs`), which with the other side of the node make the
+//! [reaction](Cable::reactions): the tension is then the force along the tangent, from which N
+//! differs by `M kappa`, for this curvature is one per deformed length. What is added to the moment
+//! beside them to reach it is `P_2(2 xi - 1)` times a linear function, which vanishes at the Gauss
+//! points. Where equilibrium is not known, all is as beside these nodes, and the moment is raw.
 //!
 //! # References
 //!
@@ -28,7 +35,9 @@ use crate::element::bending::regularisation::RegularisedPower;
 use crate::element::shape::{self, combine};
 use crate::element::variable_length::feed_weights;
 use crate::error::Error;
-use crate::system::{NodeTension, Pull, Reading, missing_at_ends};
+use crate::rule::BendingRule;
+use crate::scales::cable::AT_NODE;
+use crate::system::{Carried, NodeTension, Pull, Reading, missing_at_ends};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -44,15 +53,17 @@ pub struct Sample {
     pub slope: Vector3<f64>,
     /// Green strain (r'.r' - 1)/2, projected on linear functions inside the element.
     pub green_strain: f64,
-    /// Tension EA eps f in N, averaged at nodes; negative = compression.
+    /// Tension EA eps f in N, averaged at nodes, and by equilibrium, as force along the tangent, at
+    /// those that are held, loaded or ends; negative = compression.
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
-    /// Bending moment EI kappa in N m: along the binormal. Where |r'| < 1/2, the continued power of
-    /// the bending rule.
+    /// Bending moment EI kappa in N m: along the binormal, and by equilibrium beside nodes that are
+    /// held, loaded or ends. Where |r'| < 1/2, the continued power of the bending rule.
     pub moment: Vector3<f64>,
     /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before
-    /// averaging; all of the tension where no node can judge.
+    /// averaging; at a node that equilibrium judges, what the strain misses; all of the tension
+    /// where nothing can judge.
     pub tension_uncertainty: f64,
 }
 
@@ -67,15 +78,36 @@ impl Cable {
         Ok(self.smooth_in(e, xi))
     }
 
-    /// Returns the state at a local coordinate of an element, with the tension averaged at nodes.
+    /// Returns the state at a local coordinate of an element, with the tension averaged at nodes,
+    /// and tension and moment by equilibrium at those that are held, loaded or ends.
     pub(crate) fn smooth_in(&self, e: usize, xi: f64) -> Sample {
         let raw = self.sample_in(e, xi);
+        let by_equilibrium = [e, e + 1].map(|node| self.is_read_by_equilibrium(node, self.arc_length_of(node)));
+        let carried = if by_equilibrium.contains(&true) { self.carried(e) } else { None };
+        let moment = carried.map_or(raw.moment, |carried| raw.moment + self.missing_moment(e, xi, carried));
+        let near = AT_NODE * self.length() / self.elements()[e].length;
+        let node = [xi, 1.0 - xi].into_iter().position(|distance| distance <= near);
+        if let (Some(carried), Some(k)) = (&carried, node.filter(|&k| by_equilibrium[k])) {
+            let tension = carried[k].tension;
+            return Sample { tension, tension_uncertainty: (tension - raw.tension).abs(), moment, ..raw };
+        }
         let (from, to) = (self.node_tension(e), self.node_tension(e + 1));
         let jumps = from.into_iter().chain(to).map(|node| node.jump);
-        let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return raw };
+        let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return Sample { moment, ..raw } };
         let [start, end] = missing_at_ends(from, to);
         let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
-        Sample { tension: raw.tension + missing, tension_uncertainty, ..raw }
+        Sample { tension: raw.tension + missing, tension_uncertainty, moment, ..raw }
+    }
+
+    /// Returns what the moment of an element that is read raw misses to what it carries.
+    fn missing_moment(&self, e: usize, xi: f64, carried: [Carried; 2]) -> Vector3<f64> {
+        let limp = self.model.rule.bending == BendingRule::None;
+        if limp || self.model.elements[e].section.bending_stiffness == 0.0 {
+            return Vector3::zeros();
+        }
+        let [start, end] = [0, 1].map(|k| carried[k].moment - self.sample_in(e, k as f64).moment);
+        // zero at both Gauss points, where the curvature of a cubic is right to a higher order
+        (1.0 - 6.0 * xi * (1.0 - xi)) * ((1.0 - xi) * start + xi * end)
     }
 
     /// Returns the present state, to be read.
@@ -90,8 +122,7 @@ impl Cable {
             return None;
         }
         let reading = self.reading();
-        let s = self.elements()[..node].iter().map(|element| element.length).sum();
-        reading.at_node(node, s, reading.ends(node - 1)[1], reading.ends(node)[0])
+        reading.at_node(node, self.arc_length_of(node), reading.ends(node - 1)[1], reading.ends(node)[0])
     }
 
     /// Returns the position at an arc length in m, which is on the cable.

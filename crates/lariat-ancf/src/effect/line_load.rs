@@ -45,6 +45,19 @@ impl LineLoad {
     pub fn uniform(force: impl Into<Point>) -> Self {
         LineLoad { from: 0.0, to: f64::MAX, force: force.into().0 }
     }
+
+    /// Adds its generalised force on an element of a length in m that begins at an arc length in m.
+    pub(crate) fn add_on(&self, begin: f64, length: f64, force: &mut [f64]) {
+        let at = |s: f64| ((s - begin) / length).clamp(0.0, 1.0);
+        let (a, b) = (at(self.from), at(self.to));
+        if a == b {
+            return;
+        }
+        let weights = if (a, b) == (0.0, 1.0) { mass::load_weights(length) } else { partial_weights(length, a, b) };
+        for (i, f) in force.iter_mut().enumerate() {
+            *f += weights[i / 3] * self.force[i % 3];
+        }
+    }
 }
 
 /// Constant forces per length; they add up where they overlap.
@@ -127,16 +140,8 @@ impl Acts for LineLoads {
         for load in &self.0 {
             let mut begin = 0.0;
             for (e, element) in cable.elements.iter().enumerate() {
-                let l = element.length;
-                let (a, b) = (((load.from - begin) / l).clamp(0.0, 1.0), ((load.to - begin) / l).clamp(0.0, 1.0));
-                begin += l;
-                if a == b {
-                    continue;
-                }
-                let weights = if (a, b) == (0.0, 1.0) { mass::load_weights(l) } else { partial_weights(l, a, b) };
-                for (i, f) in force[6 * e..6 * e + 12].iter_mut().enumerate() {
-                    *f += weights[i / 3] * load.force[i % 3];
-                }
+                load.add_on(begin, element.length, &mut force[6 * e..6 * e + 12]);
+                begin += element.length;
             }
         }
         force

@@ -15,7 +15,7 @@ use crate::load::PointLoad;
 use crate::obstacle::Obstacles;
 use crate::reel::Reels;
 use crate::rule::Rule;
-use crate::scales::cable::MAX_ELEMENTS;
+use crate::scales::cable::{AT_NODE, MAX_ELEMENTS};
 use crate::section::Element;
 use crate::strength::Strength;
 use crate::support::Support;
@@ -176,7 +176,7 @@ impl Model {
     pub(crate) fn is_smooth_at(&self, node: usize, s: f64) -> bool {
         let [a, b] = [&self.elements[node - 1], &self.elements[node]];
         let is_held = || self.supports.iter().any(|(held, _)| *held == node);
-        let near = |at: f64| (at - s).abs() <= 1e-9 * self.length();
+        let near = |at: f64| (at - s).abs() <= AT_NODE * self.length();
         a.section == b.section && !is_held() && !self.pulled_points().any(near)
     }
 

@@ -16,6 +16,13 @@ pub(crate) const KNOWN: f64 = 0.01;
 /// two samples and a summit.
 pub(crate) const BETWEEN: f64 = 2.0;
 
+/// Largest ratio of the lengths of neighbours in a graded mesh. Unknown: waves of four elements are
+/// then longer than two of the next.
+pub(crate) const MOST_GROWTH: f64 = 2.0;
+
+/// Distance over the length of a cable within which a point is at a node. Derived: beyond rounding.
+pub(crate) const AT_NODE: f64 = 1e-9;
+
 /// Cosine of the angle between normals that point to one side. Derived: those of an edge of 120
 /// degrees; a sharp edge has others.
 pub(crate) const SAME_SIDE: f64 = 0.5;

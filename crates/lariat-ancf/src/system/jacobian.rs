@@ -71,7 +71,7 @@ fn add_elements(forces: &Forces, at: ForceInput<'_>, rates: [f64; 2], matrix: &m
 }
 
 /// Computes elastic force and effects of one element.
-fn element_force(forces: &Forces, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12]) -> [Dual; 12] {
+pub(super) fn element_force(forces: &Forces, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12]) -> [Dual; 12] {
     let elements = &forces.elements;
     let s = elements.slope_scale(e);
     let control = |x: &[Dual; 12]| -> Control<Dual> {

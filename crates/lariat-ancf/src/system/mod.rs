@@ -18,9 +18,11 @@
 //! | [`jacobian`] | exact derivatives |
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`reading`] | tension and strain, and the largest load |
+//! | [`carried`] | tension and moment at the ends of an element, by equilibrium |
 //! | [`projection`] | supports in vectors and matrices |
 
 pub(crate) mod angular;
+mod carried;
 mod contacts;
 mod discrete_gradient;
 pub(crate) mod dynamics;
@@ -45,6 +47,7 @@ pub(crate) mod torsion;
 mod torsion_solve;
 mod vectors;
 
+pub(crate) use carried::Carried;
 pub(crate) use discrete_gradient::CableStep;
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;

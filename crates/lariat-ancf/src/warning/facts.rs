@@ -27,6 +27,8 @@ impl Warning {
             Warning::CoarseMesh { .. }
             | Warning::CoarseMotion { .. }
             | Warning::CoarseElement { .. }
+            | Warning::CoarseMoment { .. }
+            | Warning::CoarseKink { .. }
             | Warning::LongSteps { .. }
             | Warning::EnergyLost { .. }
             | Warning::NotResolved { .. }
@@ -43,6 +45,8 @@ impl Warning {
             | Warning::UntouchedObstacles { cable, .. }
             | Warning::CoarseMotion { cable, .. }
             | Warning::CoarseElement { cable, .. }
+            | Warning::CoarseMoment { cable, .. }
+            | Warning::CoarseKink { cable, .. }
             | Warning::LongSteps { cable, .. }
             | Warning::LargeStrain { cable, .. }
             | Warning::EnergyMade { cable, .. }
@@ -94,6 +98,8 @@ impl Judged for Warning {
             Warning::Sinks { .. } => Sign::Depth,
             Warning::TwistSlips { .. } => Sign::Twist,
             Warning::UntouchedObstacles { .. }
+            | Warning::CoarseMoment { .. }
+            | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
             | Warning::FastReel { .. }
@@ -122,7 +128,10 @@ impl Judged for Warning {
 
     fn severity(&self) -> f64 {
         match self {
-            Warning::CoarseMesh { error_m, .. } | Warning::LongSteps { error_m, .. } => *error_m,
+            Warning::CoarseMesh { error_m, .. }
+            | Warning::LongSteps { error_m, .. }
+            | Warning::CoarseKink { error_m, .. } => *error_m,
+            Warning::CoarseMoment { moment_nm, elastica_nm, .. } => moment_nm / elastica_nm,
             Warning::CoarseMotion { error_m, displacement_m, .. } => error_m / displacement_m,
             Warning::CoarseElement { turn_rad, .. } | Warning::CoarseContact { turn_rad, .. } => *turn_rad,
             Warning::LargeStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,

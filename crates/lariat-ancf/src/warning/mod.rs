@@ -13,15 +13,18 @@
 //! | `contact` | the mesh beside what the cable touches, and its friction |
 //! | `watch` | mesh, tension and reel, by the shapes of a run |
 //! | `steps` | the length of integration steps, by the velocities of a run |
+//! | `layers`, `advised` | moments and kinks at clamps and loads, and meshes that do |
 //! | `balance` | the energy that integration makes or loses |
 //! | `shock` | a velocity that jumps |
 //! | `level`, `facts` | how much depends on a warning, and on each |
 //! | `fold` | which of them follow from which, and what to tell of many |
 
+mod advised;
 pub mod balance;
 mod contact;
 mod facts;
 pub mod fold;
+mod layers;
 mod level;
 mod shock;
 pub mod sizes;
@@ -29,6 +32,7 @@ mod steps;
 mod watch;
 
 pub use crate::watch::{EnergyBalance, IslandChange, Watch};
+pub use advised::AdvisedMesh;
 pub use level::Level;
 pub use shock::Shock;
 
@@ -52,6 +56,45 @@ pub enum Warning {
         elements: usize,
         /// Number of elements that would do.
         enough: usize,
+    },
+    /// The moment of a clamp is that of the elements beside it, which are longer than what bends
+    /// there.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m it bends within {layer_m:.2e} m, which the mesh with elements = {elements} does not resolve: the moment there, {moment_nm:.3e} N m, \
+         would be some {elastica_nm:.3e} N m: try {enough}"
+    )]
+    CoarseMoment {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the point in m.
+        arc_length_m: f64,
+        /// Moment of the mesh in N m.
+        moment_nm: f64,
+        /// Moment in N m of an elastica with the same angle between tangent and force.
+        elastica_nm: f64,
+        /// Length in m within which it bends, `sqrt(EI/T)`.
+        layer_m: f64,
+        /// Number of elements.
+        elements: usize,
+        /// A mesh that would do.
+        enough: AdvisedMesh,
+    },
+    /// A kink at a load, a clamp or a held point is smeared over the elements beside it.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m it turns sharply, and the mesh with elements = {elements} is smooth there, which puts points probably {error_m:.1e} m off: try \
+         {enough}, or make it two cables with a junction there"
+    )]
+    CoarseKink {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the point in m.
+        arc_length_m: f64,
+        /// Estimate of the error of position in m.
+        error_m: f64,
+        /// Number of elements.
+        elements: usize,
+        /// A mesh that would do.
+        enough: AdvisedMesh,
     },
     /// There are obstacles, but no effect by which they are touched.
     #[error(

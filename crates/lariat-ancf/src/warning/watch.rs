@@ -20,7 +20,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 17] = [
+const LAWS: [(Law, bool); 19] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -38,10 +38,12 @@ const LAWS: [(Law, bool); 17] = [
     (|_, cable, _| cut_short(cable), true),
     (Watch::twist, true),
     (|_, cable, _| untouched(cable), true),
+    (|watch, cable, _| watch.layers.moment(cable), true),
+    (|watch, cable, error| watch.layers.kink(cable).filter(|_| error.is_none()), true),
 ];
 
 /// Layout: the bit of warnings about sizes.
-const SIZES: u32 = 1 << 17;
+const SIZES: u32 = 1 << 31;
 
 impl Watch {
     /// Begins with a cable as it is: displacements are counted from there.
@@ -87,6 +89,7 @@ impl Watch {
         }
         self.steps.note(cable);
         self.contacts.note(cable);
+        self.layers.note(cable);
     }
 
     /// Returns the warnings about what was noted. If an error of positions (m) is asked for, that

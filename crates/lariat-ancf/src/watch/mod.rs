@@ -4,12 +4,14 @@
 mod account;
 mod balance;
 mod contact;
+mod layers;
 mod steps;
 
 pub(crate) use account::{CableAccount, Last};
 pub use account::{CableTerms, IslandChange};
 pub use balance::{EnergyBalance, Sizes, Verdict};
 pub(crate) use contact::{Contacts, Excess};
+pub(crate) use layers::{CoarseKink, CoarseMoment, Layers};
 pub(crate) use steps::{Estimate, Steps};
 
 use serde::{Deserialize, Serialize};
@@ -63,6 +65,8 @@ pub struct Watch {
     pub(crate) account: CableAccount,
     #[serde(default)]
     pub(crate) contacts: Contacts,
+    #[serde(default)]
+    pub(crate) layers: Layers,
     /// Time of the last note in s.
     pub(crate) noted: Option<f64>,
     /// Laws that were counted, and told of, by bit.

@@ -137,6 +137,8 @@ class Cable:
         *,
         length: float | None = None,
         elements: int | None = None,
+        finest: float | None = None,
+        finest_at: Place | Iterable[Place] | None = None,
         name: str = "cable",
         rule: str | None = None,
         allow_rank_deficient: bool = False,
@@ -156,6 +158,8 @@ class Cable:
 
         - ``length``: unstretched, in m; by default that of the polyline. Longer: it starts slack, in arcs that sag along gravity.
         - ``elements``: default 10. ``nodes_at``: arc lengths in m that get a node.
+        - ``finest``: length in m of the elements at ``finest_at``, by default both ends, from where they grow by a constant ratio up to
+          their number: for moments at clamps and loads, within ``sqrt(EI/T)`` of which a cable under a tension T bends.
         - ``rule``: "projected-3" (default), "G5-3", "ST2", "L2T2" ...
         - ``fidelity`` ("engineering" by default) or ``integrator``.
         - ``gravity``: m/s^2, default (0, -9.81, 0). ``velocity`` (m/s) and ``angular_velocity`` (rad/s): a rigid motion of the start.

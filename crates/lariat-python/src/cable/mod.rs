@@ -121,7 +121,7 @@ fn effects(effects: &Bound<'_, PyAny>) -> PyResult<ancf::Effects> {
 #[pymethods]
 impl Cable {
     #[new]
-    #[pyo3(signature = (points, section, *, length=None, elements=None, name="cable", rule=None, allow_rank_deficient=false,
+    #[pyo3(signature = (points, section, *, length=None, elements=None, finest=None, finest_at=None, name="cable", rule=None, allow_rank_deficient=false,
         fidelity=None, integrator=None, gravity=None, velocity=None, angular_velocity=None, fix=None, clamp=None,
         clamp_along=None, nodes_at=None, effects=None, damped_as=None))]
     fn py_new(
@@ -129,6 +129,8 @@ impl Cable {
         section: &Bound<'_, PyAny>,
         length: Option<f64>,
         elements: Option<usize>,
+        finest: Option<f64>,
+        finest_at: Option<Places>,
         name: &str,
         rule: Option<&str>,
         allow_rank_deficient: bool,
@@ -156,6 +158,12 @@ impl Cable {
         }
         if let Some(elements) = elements {
             builder = builder.elements(elements);
+        }
+        match (finest, finest_at) {
+            (None, None) => {}
+            (Some(finest), None) => builder = builder.finest(finest, [ancf::At::Start, ancf::At::End]),
+            (Some(finest), Some(Places(at))) => builder = builder.finest(finest, at),
+            (None, Some(_)) => return Err(PyTypeError::new_err("finest_at needs finest, a length in m")),
         }
         if let Some(rule) = rule {
             builder = builder.rule(rule.parse().map_err(raise::<Error>)?);

@@ -106,6 +106,11 @@ impl Document<'_> {
                 self.ascending(names[0], &value, path)?;
                 Ok(value)
             }
+            (Kind::List(kind), DeValue::Array(items)) if !items.is_empty() => items
+                .iter()
+                .map(|item| self.value(kind, item.get_ref(), path))
+                .collect::<Result<_, _>>()
+                .map(Value::Array),
             (Kind::Table(schema), DeValue::Table(tree)) => self.table(schema, tree, path).map(Value::Table),
             (Kind::Tables(schema), DeValue::Array(items)) => {
                 let one = |(i, item): (usize, &toml::Spanned<DeValue<'_>>)| match item.get_ref() {
@@ -206,7 +211,7 @@ impl Kind {
             Kind::Text | Kind::Name(_) | Kind::Choice(_) | Kind::Parsed { .. } => Form::Text,
             Kind::Flag => Form::Flag,
             Kind::Whole(..) | Kind::Number(_) => Form::Number,
-            Kind::Numbers(..) | Kind::Rows(..) | Kind::Ascending(_) | Kind::Tables(_) => Form::Array,
+            Kind::Numbers(..) | Kind::Rows(..) | Kind::Ascending(_) | Kind::List(_) | Kind::Tables(_) => Form::Array,
             Kind::Table(_) | Kind::Either(_) => Form::Table,
         }
     }

@@ -106,6 +106,8 @@ pub(super) fn conduct(
         let mut scene = scene.clone();
         for cable in &mut scene.cables {
             cable.elements = resolution.elements_of(cable.elements, largest);
+            // few elements cannot be graded as many can
+            cable.grading = None;
             // a load inside an element is nearer to the nodes of one mesh than to those of the next, and distances say nothing
             cable.nodes_at_loads = true;
             if purpose != Purpose::Static {

@@ -15,7 +15,6 @@ impl Scene {
             .name(self.name_of(index))
             .points(scene.points.iter().copied())
             .length(scene.length)
-            .elements(scene.elements)
             .section(scene.section)
             .rule(scene.rule)
             .effects(scene.effects.clone())
@@ -24,6 +23,7 @@ impl Scene {
             .velocity(scene.velocity)
             .angular_velocity(scene.angular_velocity)
             .integrator(scene.integrator);
+        builder = scene.mesh(builder);
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
             let at = At::ArcLength(attachment.arc_length);
             let turn = |along: Vector3<f64>| attachment.body.map_or(along, |body| self.bodies[body].turned(&along));

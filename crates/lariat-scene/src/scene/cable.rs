@@ -2,6 +2,7 @@
 
 use super::breaking::{self, BREAK, BreakScene};
 use super::effects::{self, EFFECTS};
+use super::elements::{ELEMENTS, ElementsTable, Grading};
 use super::integrator::{self, IntegratorTable};
 use super::reel::{self, DrumScene, DrumTable, REEL};
 use crate::document::{Document, KeyPath};
@@ -40,8 +41,9 @@ table! {
         /// `"straight"` starts as drawn, `"equilibrium"` in the static shape under the loads of the scene, with bodies and junctions
         /// held where they are drawn; with contact it lies on the bodies, without friction.
         initial: Initial = "straight", Kind::Choice(Initial::names);
-        /// Number of elements. A cable over sheaves shares them out over its parts, each of which has at least two.
-        elements: u64 = 10, Kind::Whole(1, 1_000_000);
+        /// Number of elements, or a mesh that is fine at some points. A cable over sheaves shares them out over its parts, each of which has at
+        /// least two.
+        elements: ElementsTable = 10, ELEMENTS;
         /// Shape of a solid section, or a rope or chain by name and nominal diameter; or the three stiffnesses.
         section: Option<SectionForm> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
         /// Density of the material, beside a solid `section`.
@@ -180,6 +182,8 @@ pub struct CableScene {
     pub equilibrium: bool,
     /// Number of elements.
     pub elements: usize,
+    /// Where they are fine, if anywhere.
+    pub grading: Option<Grading>,
     /// Whether nodes are at point loads, where the third derivative of the shape jumps, as they are at attachments.
     pub nodes_at_loads: bool,
     /// Section.
@@ -223,7 +227,7 @@ pub(super) fn read(
     let rule = rule(doc, &at.key("rule"), &row, integrator.rule())?;
     let section = section(doc, at, &row)?;
     let length = length(doc, at, &row, (section, rule, gravity), drawn)?;
-    let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements))?;
+    let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements.count()))?;
     let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
         None => (None, false, None),
@@ -244,7 +248,8 @@ pub(super) fn read(
         length,
         lead: 0.0,
         equilibrium: row.initial == Initial::Equilibrium,
-        elements: row.elements as usize,
+        elements: row.elements.count() as usize,
+        grading: row.elements.grading(doc, &at.key("elements"), length)?,
         nodes_at_loads: false,
         section,
         rule,
@@ -279,10 +284,11 @@ fn length(
         return Ok(value);
     }
     let mut rest = row.effects.clone();
-    breaking::read(doc, at, &mut rest, (drawn, row.elements))?;
+    breaking::read(doc, at, &mut rest, (drawn, row.elements.count()))?;
     reel::read(doc, at, &mut rest)?;
     let effects = effects::read(doc, at, rest, &effects::Context { section: &section, rule, length: drawn })?;
-    let builder = Cable::builder().points(row.points.iter().copied()).elements(row.elements as usize).section(section);
+    let builder =
+        Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize).section(section);
     let builder =
         builder.rule(rule).effects(effects).allow_rank_deficient().gravity(gravity).fix(At::Start).fix(At::End);
     let builder = if key == "sag" { builder.sag(value) } else { builder.pretension(value) };

@@ -21,6 +21,7 @@ pub mod breaking;
 mod build;
 pub mod cable;
 pub mod effects;
+pub mod elements;
 pub mod flow;
 pub mod integrator;
 pub mod joint;
@@ -269,6 +270,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     }
     check_start(doc, &scene, purpose)?;
     reel::check_eyes(doc, &scene)?;
+    elements::check_eyes(doc, &scene)?;
     Ok(scene)
 }
 

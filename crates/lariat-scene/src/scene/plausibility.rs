@@ -5,7 +5,8 @@
 //! A corner of the drawn shape is strained, because the elements beside it are smooth: a node on it turns by half the angle t on each side, and an
 //! element of length h stores about EA h (t/6)^4, one with the corner inside three to four times as much. Limits: a strain of 3e-3 on the mean of all of
 //! the cable, a third of that at which steel ropes break, and a tenth of the energies that the cable starts with otherwise. A radius of contact of
-//! ten diameters is more than any sheath; axial damping times of ropes are below 0.1 s, and a time in percent of critical is above one.
+//! ten diameters is more than any sheath; axial damping times of ropes are below 0.1 s, and a time in percent of critical is above one. A slack of 50 m that is meant in percent makes a cable
+//! of many times its span; no hook is three radii of its body away from it.
 
 use super::body::{BodyKind, BodyMass, BodyScene, BodyShape};
 use super::load::LoadScene;
@@ -25,6 +26,12 @@ const CONTACT: [f64; 2] = [0.2, 1.5];
 const SHEATH: f64 = 10.0;
 /// Largest axial damping time in s.
 const SLOWEST_STRETCH: f64 = 1.0;
+/// Length over thickness of a cable below which it is warned of by itself.
+const STUBBY: f64 = 10.0;
+/// Largest length of a cable over that of its points.
+const SLACK: f64 = 3.0;
+/// Largest distance of an anchor from the origin of a dynamic body over the radius of its shape.
+const ANCHOR: f64 = 3.0;
 /// Largest force over EA.
 const LOAD: f64 = 1.0;
 
@@ -33,6 +40,8 @@ impl Scene {
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
         let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
         warnings.extend(self.cables.iter().flat_map(contact_and_damping));
+        warnings.extend(self.cables.iter().flat_map(slack_and_elements));
+        warnings.extend(self.far_anchors());
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
         warnings.extend(self.moments_along());
@@ -100,6 +109,17 @@ impl Scene {
             let part_nm = load.moment.dot(&(b - a).normalize()).abs();
             let most = part_nm > 0.1 * load.moment.norm();
             most.then(|| Warning::MomentAlong { cable: cable.name.clone(), at_m: load.arc_length, part_nm })
+        })
+    }
+
+    /// Returns a warning for each anchor far outside of the shape of a dynamic body.
+    fn far_anchors(&self) -> impl Iterator<Item = Warning> {
+        self.attachments.iter().filter_map(|attachment| {
+            let (body, distance_m) = (&self.bodies[attachment.body?], attachment.anchor?.norm());
+            let radius_m = radius(body);
+            let far = body.kind == BodyKind::Dynamic && radius_m > 0.0 && distance_m > ANCHOR * radius_m;
+            let (attachment, body) = (attachment.name.clone(), body.name.clone());
+            far.then_some(Warning::FarAnchor { attachment, body, distance_m, radius_m })
         })
     }
 
@@ -222,4 +242,19 @@ fn contact_and_damping(cable: &CableScene) -> impl Iterator<Item = Warning> {
     let thick = thick.map(|radius_m| Warning::ThickContact { cable: name(), radius_m, length_m, diameter_m });
     let axial = cable.effects.damping.map(|damping| damping.axial).filter(|axial| *axial > SLOWEST_STRETCH);
     thick.into_iter().chain(axial.map(|axial_s| Warning::SlowStretch { cable: name(), axial_s }))
+}
+
+/// Returns the warnings about a length in another measure, and about elements that are thicker than long.
+fn slack_and_elements(cable: &CableScene) -> impl Iterator<Item = Warning> {
+    let (name, length_m) = (|| cable.name.clone(), cable.length);
+    let drawn_m = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
+    let slack = length_m > SLACK * drawn_m;
+    let slack = slack.then(|| Warning::MuchSlack { cable: name(), length_m, drawn_m });
+    let mean = length_m / cable.elements as f64;
+    let element_m = cable.grading.as_ref().map_or(mean, |grading| grading.finest);
+    // a cable that is short itself is told as such
+    let thick = |diameter: &f64| *diameter > element_m && length_m > STUBBY * diameter;
+    let thick = cable.section.diameter.filter(thick);
+    let thick = thick.map(|diameter_m| Warning::ThickElements { cable: name(), element_m, diameter_m });
+    slack.into_iter().chain(thick)
 }

@@ -96,6 +96,8 @@ pub enum Kind {
     Rows(&'static [&'static str], usize),
     /// As [`Kind::Rows`], at least one, with the first number ascending from row to row.
     Ascending(&'static [&'static str]),
+    /// An array of one value of a kind or more.
+    List(&'static Kind),
     /// A table.
     Table(&'static Table),
     /// An array of tables.

@@ -58,6 +58,7 @@ impl Kind {
             Kind::Ascending(names) => {
                 format!("rows [{}] of finite numbers, at least 1, {} ascending", names.join(", "), names[0])
             }
+            Kind::List(kind) => format!("a list of one or more of {}", kind.phrase()),
             Kind::Table(table) => match table.choose {
                 Choose::ExactlyOne(names) if names.len() == table.keys().count() => {
                     let one = |key: &Key| format!("{{ {} = {} }}", key.name, key.kind.outline());

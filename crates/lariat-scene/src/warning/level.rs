@@ -20,6 +20,9 @@ impl Warning {
             | Warning::DrawnCorner { .. }
             | Warning::ThickContact { .. }
             | Warning::SlowStretch { .. }
+            | Warning::MuchSlack { .. }
+            | Warning::ThickElements { .. }
+            | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
             | Warning::ManyTurns { .. } => Level::Setup,
             Warning::OpenGap { .. }
@@ -49,6 +52,8 @@ impl Warning {
             | Warning::DrawnCorner { cable, .. }
             | Warning::ThickContact { cable, .. }
             | Warning::SlowStretch { cable, .. }
+            | Warning::MuchSlack { cable, .. }
+            | Warning::ThickElements { cable, .. }
             | Warning::LargeLoad { cable, .. } => Some(cable),
             Warning::FallsFreely { .. }
             | Warning::SheaveStopped { .. }
@@ -59,6 +64,7 @@ impl Warning {
             | Warning::NoConvergence { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::LeftAsDrawn { .. }
+            | Warning::FarAnchor { .. }
             | Warning::ManyTurns { .. } => None,
         }
     }
@@ -76,7 +82,7 @@ impl Judged for Warning {
             Warning::OpenGap { .. } => Sign::Gap,
             Warning::VelocityJump { .. } => Sign::Shock,
             Warning::DrawnCorner { .. } => Sign::Corner,
-            Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
+            Warning::ThickContact { .. } | Warning::ThickElements { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::FallsFreely { .. }
@@ -92,6 +98,8 @@ impl Judged for Warning {
             | Warning::UnstableEquilibrium { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::SlowStretch { .. }
+            | Warning::MuchSlack { .. }
+            | Warning::FarAnchor { .. }
             | Warning::ManyTurns { .. } => return None,
         })
     }
@@ -130,6 +138,9 @@ impl Judged for Warning {
             Warning::DrawnCorner { speed_m_s, .. } => *speed_m_s,
             Warning::ThickContact { radius_m, .. } => *radius_m,
             Warning::SlowStretch { axial_s, .. } => *axial_s,
+            Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,
+            Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
+            Warning::FarAnchor { distance_m, radius_m, .. } => distance_m / radius_m,
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
             Warning::NoConvergence { .. }

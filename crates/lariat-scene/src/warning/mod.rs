@@ -311,6 +311,46 @@ pub enum Warning {
         /// Time of the axial strain in s.
         axial_s: f64,
     },
+    /// A cable that is several times as long as drawn.
+    #[error(
+        "cable {cable:?}: it is {length_m:.4} m long and drawn over {drawn_m:.4} m, {percent:.0} % of slack: its length is in m; was a share meant?",
+        percent = 100.0 * (.length_m / .drawn_m - 1.0)
+    )]
+    MuchSlack {
+        /// Name of the cable.
+        cable: String,
+        /// Unstretched length in m.
+        length_m: f64,
+        /// Length of its points in m.
+        drawn_m: f64,
+    },
+    /// Elements that are thicker than long.
+    #[error(
+        "cable {cable:?}: its elements are {element_m:.2e} m long and {diameter_m:.2e} m thick: what bends within the thickness shears, and a cable has no shear; take fewer elements"
+    )]
+    ThickElements {
+        /// Name of the cable.
+        cable: String,
+        /// Length of the shortest elements in m.
+        element_m: f64,
+        /// Outer diameter or side in m.
+        diameter_m: f64,
+    },
+    /// An anchor far from all of the shape of its body.
+    #[error(
+        "attachment {attachment:?}: its anchor is {distance_m:.3e} m from the origin of body {body:?}, whose shape reaches {radius_m:.3e} m: the anchor is in the axes of the body; was a point of the \
+         world meant?"
+    )]
+    FarAnchor {
+        /// Name of the attachment.
+        attachment: String,
+        /// Name of the body.
+        body: String,
+        /// Distance of the anchor from the origin of the body in m.
+        distance_m: f64,
+        /// Radius of a sphere about the origin that holds the shape in m.
+        radius_m: f64,
+    },
     /// A force that strains the cable beyond its law.
     #[error(
         "cable {cable:?}: the force on it at {at_m:.4} m is {force_n:.3e} N, {percent:.0} % of EA = {axial_stiffness_n:.3e} N, and steps will be very short: check the force \

@@ -2,7 +2,7 @@
 
 use crate::{pendulum, warned};
 use lariat_ancf::Warning as CableWarning;
-use lariat_scene::{Purpose, Warning};
+use lariat_scene::{Purpose, Scene, Warning};
 
 #[test]
 fn a_pendulum_in_si_units_has_no_warning() {
@@ -129,4 +129,39 @@ fn radius_damping_rotation_and_load_in_other_measures_are_told() {
     // thicker than ten diameters
     assert_eq!(kinds(&text(solid, "contact = { radius = 0.15 }", 0.0, 0.0)), ["radius"]);
     assert!(kinds(&text(stiff, "contact = { radius = 0.15 }", 0.0, 0.0)).is_empty());
+}
+
+/// A slack in per cent, elements that are thicker than long, and an anchor in the axes of the world; and none of them where they are
+/// as they should be.
+#[test]
+fn slack_elements_and_anchors_in_other_measures_are_told() {
+    let text = |length: f64, elements: &str, anchor: [f64; 3]| {
+        format!(
+            "duration = 0.01\n[[body]]\nname = \"load\"\nshape = {{ ball = 0.1 }}\nmass = 5.0\nposition = [2.0, 0.0, 0.0]\n\
+             [[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]\nlength = {length:?}\nelements = {elements}\n\
+             section = {{ round = 0.02 }}\ndensity = 1000.0\nyoungs_modulus = 1e8\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\nanchor = {anchor:?}\ngap = \"close\"\n"
+        )
+    };
+    let kinds = |text: &str| -> Vec<&str> {
+        let kind = |w: &Warning| match w {
+            Warning::MuchSlack { .. } => "slack",
+            Warning::ThickElements { .. } => "elements",
+            Warning::FarAnchor { .. } => "anchor",
+            _ => "",
+        };
+        let scene = Scene::parse("scene.toml", text, &[], Purpose::Run).unwrap();
+        scene.warnings(Purpose::Run).iter().map(kind).filter(|kind| !kind.is_empty()).collect()
+    };
+    let (none, at_load) = (Vec::<&str>::new(), [0.0; 3]);
+    assert_eq!(kinds(&text(2.1, "10", at_load)), none);
+    assert_eq!(kinds(&text(5.9, "10", at_load)), none);
+    assert_eq!(kinds(&text(102.0, "10", at_load)), ["slack"]);
+    assert_eq!(kinds(&text(2.1, "90", at_load)), none);
+    assert_eq!(kinds(&text(2.1, "120", at_load)), ["elements"]);
+    assert_eq!(kinds(&text(2.1, "{ count = 30, finest = 0.03 }", at_load)), none);
+    assert_eq!(kinds(&text(2.1, "{ count = 30, finest = 0.01 }", at_load)), ["elements"]);
+    assert_eq!(kinds(&text(2.1, "10", [-0.1, 0.0, 0.0])), none);
+    assert_eq!(kinds(&text(2.1, "10", [2.0, 0.0, 0.0])), ["anchor"]);
 }

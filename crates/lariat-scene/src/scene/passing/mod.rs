@@ -69,6 +69,10 @@ pub(super) fn divide(
         }
     }
     for (c, mut passages) in by_cable.into_iter().enumerate().filter(|(_, passages)| !passages.is_empty()) {
+        if scene.cables[c].grading.is_some() {
+            let at = KeyPath::root("cable").item(c).key("elements");
+            return Err(doc.conflict(&at, "a cable over sheaves along it has even elements"));
+        }
         passages.sort_by(|a, b| a.at.total_cmp(&b.at));
         place(doc, &scene.cables[c], &mut passages)?;
         let wrapped = passages.iter().any(|passage| passage.radius > 0.0);

@@ -1,0 +1,123 @@
+//! What the elements carry at nodes that are held, loaded or ends: where neither side judges the
+//! other.
+//!
+//! # Equation
+//!
+//! An elastica that a force F pulls out of a clamp or a load, where its tangent is at an angle
+//! theta to the force, turns to the force within a few `sqrt(EI/F)`, with the moment
+//!
+//! ```text
+//! M = 2 sqrt(EI F) sin(theta/2)
+//! ```
+//!
+//! there, for `EI kappa^2/2 + F cos` of its angle is constant along it. Longer elements have the
+//! moment M_h instead, which is larger, and the line of the force is off by `(M_h - M)/F`: so is
+//! the node, where it may move.
+//!
+//! # Validity
+//!
+//! Where nothing else bends it within the layer. Beside elements of 3.7, 4.9, 9.2 and 37
+//! `sqrt(EI/F)` moments are 5, 11, 43 and 344 % too large, as the analytic beam says
+//! (`tests/end_reading.rs`).
+//!
+//! # References
+//!
+//! Love 1944, section 262 (the elastica). Moments are those of [equilibrium](crate::system).
+
+use super::Cable;
+use crate::scales::watch::LAYER;
+use crate::system::Carried;
+use nalgebra::Vector3;
+
+/// What bends within a short piece at a node, on one side of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layer {
+    /// Arc length of the node in m.
+    pub arc_length: f64,
+    /// Length of the element in m, and of the layer, `sqrt(EI/F)`.
+    pub element: f64,
+    pub scale: f64,
+    /// Moment in N m: of the mesh, and of the elastica.
+    pub moments: [f64; 2],
+    /// Force in N, and its share of EA.
+    pub force: f64,
+    pub strain: f64,
+    /// Angle between tangent and force in rad.
+    pub angle: f64,
+    /// Whether the slope is held, so that the moment is felt.
+    pub held: bool,
+}
+
+impl Cable {
+    /// Returns whether tension and moment at a node at an arc length in m are read by equilibrium:
+    /// at an end, a support, a point load or a change of section.
+    pub(super) fn is_read_by_equilibrium(&self, node: usize, s: f64) -> bool {
+        node == 0 || node == self.elements().len() || !self.model.is_smooth_at(node, s)
+    }
+
+    /// Returns the arc length of a node in m.
+    pub(super) fn arc_length_of(&self, node: usize) -> f64 {
+        self.elements()[..node].iter().map(|element| element.length).sum()
+    }
+
+    /// Returns what an element carries at both ends, by equilibrium with the accelerations of the
+    /// last step, the mean ones of a step of the discrete gradient, or those of the present forces;
+    /// `None` where it is not known.
+    pub(crate) fn carried(&self, e: usize) -> Option<[Carried; 2]> {
+        let (memory, reading) = (&self.snapshot.state.memory, self.reading());
+        let (last, contacts) = (&memory.differences, &memory.contacts[..]);
+        if memory.valid && memory.revision == self.revision {
+            return reading.carried(e, |i| memory.acceleration[i], contacts);
+        }
+        if !last.is_empty() && last.step > 0.0 && last.revision == self.revision {
+            return reading.carried(e, |i| last.velocity[i] / last.step, contacts);
+        }
+        let present = reading.acceleration(contacts)?;
+        reading.carried(e, |i| present[i], contacts)
+    }
+
+    /// Calls `visit` with each layer that is shorter than the elements beside its node.
+    pub(crate) fn visit_layers(&self, mut visit: impl FnMut(Layer)) {
+        let (elements, mut from) = (self.elements(), 0.0);
+        for (e, element) in elements.iter().enumerate() {
+            let ends = [from, from + element.length];
+            from = ends[1];
+            let mut carried = None;
+            for (k, arc_length) in ends.into_iter().enumerate() {
+                let (node, inner) = (e + k, 0 < e + k && e + k < elements.len());
+                let held = self.model.support(node).is_some_and(|support| support.holds_slope());
+                if !(held || inner) || !self.is_read_by_equilibrium(node, arc_length) || self.has_moment(arc_length) {
+                    continue;
+                }
+                let flexural = element.section.bending_stiffness;
+                let long = LAYER * LAYER * flexural;
+                if self.reading().ends(e)[k].tension * element.length.powi(2) <= long {
+                    continue;
+                }
+                let Some(carried) = carried.get_or_insert_with(|| self.carried(e)) else { break };
+                let Carried { slope, force, tension, moment } = carried[k];
+                if tension * element.length.powi(2) <= long {
+                    continue;
+                }
+                let (force, angle) = (force.norm(), slope.angle(&force));
+                let elastica = 2.0 * (flexural * force).sqrt() * (0.5 * angle).sin();
+                visit(Layer {
+                    arc_length,
+                    element: element.length,
+                    scale: (flexural / force).sqrt(),
+                    moments: [moment.norm(), elastica],
+                    force,
+                    strain: force / element.section.axial_stiffness,
+                    angle,
+                    held,
+                });
+            }
+        }
+    }
+
+    /// Returns whether a moment of a load is at an arc length in m.
+    fn has_moment(&self, s: f64) -> bool {
+        let near = |at: f64| (at - s).abs() <= crate::scales::cable::AT_NODE * self.length();
+        self.model.loads.iter().any(|load| load.moment != Vector3::zeros() && near(load.arc_length))
+    }
+}
