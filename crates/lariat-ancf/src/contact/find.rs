@@ -162,7 +162,10 @@ impl ContactStep {
         }
         let index = find(pair.motion.memory, point.key);
         let memory = index.map(|i| &pair.motion.memory[i]);
-        point.patch = one_sided(patch, (&y, &z), memory);
+        point.patch = pair.one_sided(feature, (patch, y, z), memory);
+        if memory.is_none() && point.patch != patch && point.distance > point.reach {
+            return;
+        }
         point.recall(&y, &pair.step, memory);
         (point.nearby, point.recalls) = (Some(self.nearby.len() - 1), index);
         index.into_iter().for_each(|i| self.recalled[i] = true);
@@ -265,12 +268,30 @@ impl ContactPoint {
     }
 }
 
-/// Returns the patch of a feature at `y`, with the vector z to it from the core: where the memory
-/// is of the core's other side, the plane there.
-pub(super) fn one_sided(patch: Patch, (y, z): (&Vector3<f64>, &Vector3<f64>), memory: Option<&ContactMemory>) -> Patch {
-    match memory.filter(|memory| memory.normal.dot(z) < 0.0) {
-        Some(memory) => Patch::Plane { point: y - z, normal: memory.normal },
-        None => patch,
+impl Pair<'_> {
+    /// Returns the patch of a feature at `y`, with the vector z to it from the core: where the memory
+    /// is of the core's other side, the plane there. An edge that is met first pushes to its outer
+    /// side, although the cable passes through the solid beside it.
+    pub(super) fn one_sided(
+        &self,
+        feature: &Feature,
+        (patch, y, z): (Patch, Vector3<f64>, Vector3<f64>),
+        memory: Option<&ContactMemory>,
+    ) -> Patch {
+        let away = match memory {
+            Some(memory) => (memory.normal.dot(&z) < 0.0).then_some(memory.normal),
+            None if feature.radius == 0.0 => self.outer_side(&(y - z), &z),
+            None => None,
+        };
+        away.map_or(patch, |normal| Patch::Plane { point: y - z, normal })
+    }
+
+    /// Returns the direction against z from an edge if that leads farther out of the solid than z.
+    fn outer_side(&self, core: &Vector3<f64>, z: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let reach = self.radius + self.obstacle.skin;
+        let direction = z.try_normalize(f64::MIN_POSITIVE)?;
+        let out = |way: f64| self.obstacle.surface.nearest(&(core + direction * way)).distance;
+        (out(-reach) > out(reach)).then_some(-direction)
     }
 }
 

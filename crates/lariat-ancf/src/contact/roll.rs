@@ -33,7 +33,6 @@
 //! it stays.
 
 use super::evaluation::Between;
-use super::find::one_sided;
 use super::linear::Roll;
 use super::motion::Motion;
 use super::nearby::Nearby;
@@ -134,7 +133,7 @@ impl ContactStep {
         let y = pair.step.start.own(&point.start);
         let Some((patch, z)) = nearby.feature.patch(&y) else { return };
         let memory = recalls.map(|i| &pair.motion.memory[i]);
-        point.patch = one_sided(patch, (&y, &z), memory);
+        point.patch = pair.one_sided(&nearby.feature, (patch, y, z), memory);
         if point.patch == patch {
             point.between = between;
         }
