@@ -7,6 +7,7 @@ use crate::components::{CableComponents, put};
 use crate::event::{CableBroken, CableFailed};
 use crate::interpolate::Interpolate;
 use crate::junction::Junction;
+use crate::mesh::RopeMesh;
 use crate::sheave::Sheave;
 use crate::strength::{BreakStrain, BreakTension};
 use bevy_ecs::entity::Entity;
@@ -74,9 +75,11 @@ pub(crate) fn split_entity(world: &mut World, entity: Entity, cable: CableHandle
     behind.put(&mut world.entity_mut(rest));
     let name = world.get::<Name>(entity).cloned();
     let drawn = world.get::<Interpolate>(entity).map(|_| Interpolate::default());
+    let mesh = world.get::<RopeMesh>(entity).cloned();
     let mut part = world.entity_mut(rest);
     put(&mut part, name);
     put(&mut part, drawn);
+    put(&mut part, mesh);
     part.insert(description);
     for (attachment, at) in moved {
         if let Some(mut attachment) = world.get_mut::<Attachment>(attachment) {

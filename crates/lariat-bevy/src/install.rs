@@ -5,6 +5,7 @@ use crate::cables::Cables;
 use crate::clock::FixedClock;
 use crate::diagnostics::Diagnostics;
 use crate::event;
+use crate::mesh;
 use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::prepare::{self, attachments, bodies, drums, effects, junctions, passing, reels, removals, sheaves};
@@ -108,6 +109,7 @@ fn add_publish(schedule: &mut Schedule) {
             publish::count,
             publish::read_bodies,
             breaking::split_entities,
+            mesh::draw,
             publish::send,
         )
             .chain()

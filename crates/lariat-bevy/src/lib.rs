@@ -49,7 +49,7 @@
 //! | order systems against the stages of a step | [`CableSystems`] |
 //! | react to events | [`event`] |
 //! | hear where meshes, steps, laws and sizes are not good enough | [`CableWarning`](event::CableWarning) |
-//! | draw | [`curve()`], [`Interpolate`] |
+//! | draw | [`RopeMesh`], whose triangles are [`RopeVertices`]; [`curve()`], [`Interpolate`] |
 //! | measure the cost | [`Diagnostics`] |
 //! | roll back | [`Snapshot`] |
 //!
@@ -90,6 +90,7 @@ mod install;
 mod interpolate;
 mod junction;
 mod links;
+mod mesh;
 mod passing;
 mod pending;
 mod physics;
@@ -122,6 +123,7 @@ pub use interpolate::{Interpolate, curve};
 pub use junction::Junction;
 pub use lariat_ancf::{self, At, Fidelity, Point};
 pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, SheaveOptions, rapier};
+pub use mesh::{RopeMesh, RopeVertices};
 pub use passing::SheaveAlong;
 pub use physics::Physics;
 #[cfg(feature = "bevy_app")]

@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::interpolate::Interpolate;
 use crate::junction::{Joined, Junction, NotJoinable};
 use crate::links::{AttachmentLink, Links};
+use crate::mesh::RopeMesh;
 use crate::passing::SheaveAlong;
 use crate::pending::Pending;
 use crate::physics::Physics;
@@ -237,7 +238,7 @@ macro_rules! plain {
 
 // in this order: `Attachment` and `Body` remove handles, which are the last
 plain! {
-    name: Name, cable: Cable, interpolate: Interpolate, break_force: BreakForce,
+    name: Name, cable: Cable, interpolate: Interpolate, mesh: RopeMesh, break_force: BreakForce,
     attachment: Attachment, reading: AttachmentReading, not_attachable: NotAttachable, target: KinematicTarget, pose: BodyPose,
     body_handle: BodyHandle, attached: Attached, joined: Joined, not_joinable: NotJoinable,
 }

@@ -269,9 +269,9 @@ impl ContactPoint {
 }
 
 impl Pair<'_> {
-    /// Returns the patch of a feature at `y`, with the vector z to it from the core: where the memory
-    /// is of the core's other side, the plane there. An edge that is met first pushes to its outer
-    /// side, although the cable passes through the solid beside it.
+    /// Returns the patch of a feature at `y`, with the vector z to it from the core: where the
+    /// memory is of the core's other side, the plane there. An edge that is met first pushes to its
+    /// outer side, although the cable passes through the solid beside it.
     pub(super) fn one_sided(
         &self,
         feature: &Feature,

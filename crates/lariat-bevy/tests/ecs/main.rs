@@ -11,6 +11,7 @@ mod effects;
 mod events;
 mod junctions;
 mod lifecycle;
+mod mesh;
 mod order;
 mod pendulum;
 mod plugin;

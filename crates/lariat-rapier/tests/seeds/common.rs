@@ -55,7 +55,16 @@ pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
         let name = text.split([' ', '(']).next().unwrap_or("");
         (warning.level(), name.to_string())
     };
-    let of_mesh = ["CoarseMesh", "CoarseMotion", "CoarseElement", "LargeStrain", "Stubby", "SoftMaterial"];
+    let of_mesh = [
+        "CoarseMesh",
+        "CoarseMoment",
+        "CoarseKink",
+        "CoarseMotion",
+        "CoarseElement",
+        "LargeStrain",
+        "Stubby",
+        "SoftMaterial",
+    ];
     let mut names: Vec<(Level, String)> = set.warnings(world).iter().map(named).collect();
     // the sections are drawn at random, of materials that carry waves faster than any does
     names.retain(|(_, name)| !of_mesh.contains(&name.as_str()) && name != "FastWaves");
