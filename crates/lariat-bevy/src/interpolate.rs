@@ -10,6 +10,7 @@
 //! For display: it lags by one host step.
 
 use bevy_ecs::component::Component;
+use lariat_ancf::element::shape::{combine, position};
 use lariat_ancf::{Cable, Vector3};
 
 /// Keeps the previous nodal coordinates of a cable, so that it can be drawn between host steps.
@@ -49,15 +50,13 @@ pub fn curve(cable: &Cable, per_element: usize) -> Vec<Vector3<f64>> {
 }
 
 fn polyline(cable: &Cable, q: &[f64], per_element: usize) -> Vec<Vector3<f64>> {
-    let vector = |i: usize| Vector3::new(q[i], q[i + 1], q[i + 2]);
     let count = per_element.max(1);
     let mut points = Vec::with_capacity(cable.elements().len() * count + 1);
     for (e, element) in cable.elements().iter().enumerate() {
         for k in 0..count {
-            let weights = lariat_ancf::element::shape::position(k as f64 / count as f64, element.length);
-            points.push((0..4).map(|j| weights[j] * vector(6 * e + 3 * j)).sum());
+            points.push(combine(q, e, &position(k as f64 / count as f64, element.length)));
         }
     }
-    points.push(vector(q.len() - 6));
+    points.push(Vector3::from_column_slice(&q[q.len() - 6..q.len() - 3]));
     points
 }

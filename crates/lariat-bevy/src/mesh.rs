@@ -186,9 +186,8 @@ impl RopeVertices {
 impl Ring {
     /// Returns the ring at a point of an element, with the frame of the one before reflected to it.
     fn at(q: &[f64], element: usize, xi: f64, length: f64, before: Option<Ring>) -> Ring {
-        let node = |i: usize| Vector3::from_column_slice(&q[6 * element + 3 * i..6 * element + 3 * i + 3]);
-        let weigh = |weights: [f64; 4]| (0..4).map(|i| weights[i] * node(i)).sum::<Vector3<f64>>();
-        let (centre, slope) = (weigh(shape::position(xi, length)), weigh(shape::slope(xi, length)));
+        let [centre, slope] =
+            [shape::position, shape::slope].map(|weights| shape::combine(q, element, &weights(xi, length)));
         let back = before.map_or(Vector3::y(), |ring| ring.tangent);
         let tangent = slope.try_normalize(f64::MIN_POSITIVE).unwrap_or(back);
         let turned = match before {

@@ -17,43 +17,40 @@ use lariat_rapier::Event;
 pub(crate) fn read_events(mut cables: ResMut<Cables>, physics: Res<Physics>) {
     let Cables { set, links, events, broken, .. } = &mut *cables;
     let parent = |collider| physics.colliders.get(collider).and_then(|c| links.bodies.get(&c.parent()?).copied());
+    let entity_of = |cable| links.cables.get(&cable).map(|link| link.entity);
     for event in set.take_events() {
-        let translated: Option<QueuedEvent> =
-            match event {
-                Event::Asleep(cable) => links.cables.get(&cable).map(|link| CableAsleep { entity: link.entity }.into()),
-                Event::Awake(cable) => links.cables.get(&cable).map(|link| CableAwake { entity: link.entity }.into()),
-                Event::Degraded { cable, iterations } => {
-                    links.cables.get(&cable).map(|link| CableDegraded { entity: link.entity, iterations }.into())
-                }
-                Event::AttachmentEnded { attachment, .. } => links.attachments.remove(&attachment).map(|link| {
-                    let (entity, cable, body) = (link.entity, link.cable, link.body);
-                    AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()
-                }),
-                Event::GapOpened { attachment, gap } => links.attachments.get(&attachment).map(|link| {
-                    GapOpened { entity: link.entity, cable: link.cable, body: link.body, gap: gap.gap }.into()
-                }),
-                Event::Unsettled { attachment, how } => links.attachments.get(&attachment).map(|link| {
-                    MechanismUnsettled { entity: link.entity, cable: link.cable, body: link.body, how }.into()
-                }),
-                Event::Broken { cable, rest, how } => {
-                    broken.push(Parting { cable, rest, how });
-                    None
-                }
-                Event::ContactStarted { cable, collider, arc_length, force } => links.cables.get(&cable).map(|link| {
-                    ContactStarted { entity: link.entity, body: parent(collider), collider, arc_length, force }.into()
-                }),
-                Event::ContactEnded { cable, collider, arc_length } => links.cables.get(&cable).map(|link| {
-                    ContactEnded { entity: link.entity, body: parent(collider), collider, arc_length }.into()
-                }),
-                Event::ContactIgnored { cable, collider } => links
-                    .cables
-                    .get(&cable)
-                    .map(|link| ContactIgnored { entity: link.entity, body: parent(collider), collider }.into()),
-                Event::Warning { cable, warning } => {
-                    links.cables.get(&cable).map(|link| CableWarning { entity: link.entity, warning }.into())
-                }
-                _ => None,
-            };
+        let translated: Option<QueuedEvent> = match event {
+            Event::Asleep(cable) => entity_of(cable).map(|entity| CableAsleep { entity }.into()),
+            Event::Awake(cable) => entity_of(cable).map(|entity| CableAwake { entity }.into()),
+            Event::Degraded { cable, iterations } => {
+                entity_of(cable).map(|entity| CableDegraded { entity, iterations }.into())
+            }
+            Event::AttachmentEnded { attachment, .. } => links.attachments.remove(&attachment).map(|link| {
+                let (entity, cable, body) = (link.entity, link.cable, link.body);
+                AttachmentEnded { entity, cable, body, reason: EndReason::BodyGone }.into()
+            }),
+            Event::GapOpened { attachment, gap } => links
+                .attachments
+                .get(&attachment)
+                .map(|link| GapOpened { entity: link.entity, cable: link.cable, body: link.body, gap: gap.gap }.into()),
+            Event::Unsettled { attachment, how } => links
+                .attachments
+                .get(&attachment)
+                .map(|link| MechanismUnsettled { entity: link.entity, cable: link.cable, body: link.body, how }.into()),
+            Event::Broken { cable, rest, how } => {
+                broken.push(Parting { cable, rest, how });
+                None
+            }
+            Event::ContactStarted { cable, collider, arc_length, force } => entity_of(cable)
+                .map(|entity| ContactStarted { entity, body: parent(collider), collider, arc_length, force }.into()),
+            Event::ContactEnded { cable, collider, arc_length } => entity_of(cable)
+                .map(|entity| ContactEnded { entity, body: parent(collider), collider, arc_length }.into()),
+            Event::ContactIgnored { cable, collider } => {
+                entity_of(cable).map(|entity| ContactIgnored { entity, body: parent(collider), collider }.into())
+            }
+            Event::Warning { cable, warning } => entity_of(cable).map(|entity| CableWarning { entity, warning }.into()),
+            _ => None,
+        };
         events.extend(translated);
     }
 }

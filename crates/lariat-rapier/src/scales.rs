@@ -197,8 +197,7 @@ pub(crate) mod step {
     pub(crate) const FRAME: f64 = 1.0 / 60.0;
 
     /// Newton iterations of an island in a frame of a game. Measured: of 5400 host steps in random
-    /// worlds (tests, seeds) none takes more than 53, and half of them 4; those of a cable of 10
-    /// elements take a third of the frame, at 3 us each.
+    /// worlds (tests, seeds) none takes more than 53, and half of them 4.
     pub(crate) const ITERATIONS_OF_GAMES: f64 = 2000.0;
 
     /// Number of elements to integrate below which threads are left asleep. Measured, without a

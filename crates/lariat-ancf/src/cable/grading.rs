@@ -61,17 +61,22 @@ impl Growth {
     }
 }
 
-/// Returns the arc lengths of the nodes in m: all breaks, and between them elements of about equal
-/// length, `elements` or a few more in all; with a grading, of lengths that grow from its points.
+/// Sorts arc lengths in m on a cable of this length, and leaves one of each.
+fn put_in_order(points: &mut Vec<f64>, length: f64) {
+    points.sort_by(f64::total_cmp);
+    points.dedup_by(|a, b| *a - *b <= AT_NODE * length);
+}
+
+/// Returns the arc lengths of the nodes in m: all breaks, among which are the points of a grading,
+/// and between them elements of about equal length, `elements` or a few more in all; with a
+/// grading, of lengths that grow from its points.
 pub(super) fn nodes(
     breaks: &mut Vec<f64>,
     length: f64,
     elements: usize,
     grading: Option<&Grading>,
 ) -> Result<Vec<f64>, Error> {
-    breaks.extend(grading.iter().flat_map(|grading| &grading.points));
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|a, b| *a - *b <= AT_NODE * length);
+    put_in_order(breaks, length);
     let last = breaks.len() - 1;
     breaks[last] = length;
     let sizes = grading.map(|grading| Sizes::new(grading, length, elements)).transpose()?;
@@ -112,8 +117,7 @@ impl Sizes {
         let what = format!("length of the finest elements (m) of {elements} on {length} m");
         require(&what, finest, finest * count < length, "below the mean length of an element")?;
         let mut points = grading.points.clone();
-        points.sort_by(f64::total_cmp);
-        points.dedup_by(|a, b| *a - *b <= AT_NODE * length);
+        put_in_order(&mut points, length);
         let of = |c: f64| Sizes::with(Growth::new(finest, c), &points, length);
         let mut bounds = [0.0, MOST_GROWTH.ln()];
         let least = of(bounds[1]).elements_to(length).ceil();

@@ -30,9 +30,10 @@ pub fn second_derivative(xi: f64, length: f64) -> [f64; 4] {
     [bend, (6.0 * xi - 4.0) / length, -bend, (6.0 * xi - 2.0) / length]
 }
 
-/// Returns a nodal vector at a point of an element.
+/// Returns what weights of (r_i, t_i, r_j, t_j) make of the nodal coordinates `q` of a cable, at a
+/// point of an element.
 #[inline]
-pub(crate) fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
+pub fn combine(q: &[f64], element: usize, shape: &[f64; 4]) -> Vector3<f64> {
     let d = &q[6 * element..6 * element + 12];
     let part = |x: usize| shape[0] * d[x] + shape[1] * d[3 + x] + shape[2] * d[6 + x] + shape[3] * d[9 + x];
     Vector3::new(part(0), part(1), part(2))

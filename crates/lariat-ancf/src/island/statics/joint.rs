@@ -40,6 +40,7 @@
 
 use super::super::body::RigidBody;
 use super::super::coupling::CoupledInertia;
+use super::super::hold::stack;
 use super::super::rotation::skew;
 use crate::error::{Error, require, require_finite};
 use crate::island::bordered::Bordered;
@@ -279,29 +280,24 @@ type Pose = (Vector3<f64>, UnitQuaternion<f64>);
 /// Centre, lever of the point, and attitude of the frame.
 type Placed = (Vector3<f64>, Vector3<f64>, UnitQuaternion<f64>);
 
-fn stacked(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
-    let mut out = Vector6::zeros();
-    out.fixed_rows_mut::<3>(0).copy_from(linear);
-    out.fixed_rows_mut::<3>(3).copy_from(angular);
-    out
+/// The second derivative of `u . (R x)` by a rotation R from the present attitude.
+fn turned_twice(u: &Vector3<f64>, x: &Vector3<f64>) -> Matrix3<f64> {
+    let product = u * x.transpose();
+    (product + product.transpose()) * 0.5 - Matrix3::identity() * u.dot(x)
 }
 
 /// `u . (x2 - x1)`, u fixed to the first body: `(E1 u) . (c2 + E2 b - c1) - u . a` with the levers
 /// a and b of the points.
 fn along(u: &Vector3<f64>, (c1, a, _): &Placed, (c2, b, _): &Placed) -> Jet {
     let y = c2 + b - c1;
-    let own = |x: &Vector3<f64>| {
-        let product = u * x.transpose();
-        (product + product.transpose()) * 0.5 - Matrix3::identity() * u.dot(x)
-    };
     let [mut first, mut second, mut mixed] = [Matrix6::zeros(); 3];
-    first.fixed_view_mut::<3, 3>(3, 3).copy_from(&own(&y));
+    first.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned_twice(u, &y));
     first.fixed_view_mut::<3, 3>(3, 0).copy_from(&-skew(u));
     first.fixed_view_mut::<3, 3>(0, 3).copy_from(&skew(u));
-    second.fixed_view_mut::<3, 3>(3, 3).copy_from(&own(b));
+    second.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned_twice(u, b));
     mixed.fixed_view_mut::<3, 3>(3, 0).copy_from(&skew(u));
     mixed.fixed_view_mut::<3, 3>(3, 3).copy_from(&(Matrix3::identity() * u.dot(b) - b * u.transpose()));
-    let slope = [stacked(&-u, &u.cross(&y)), stacked(u, &b.cross(u))];
+    let slope = [stack(&-u, &u.cross(&y)), stack(u, &b.cross(u))];
     Jet { value: u.dot(&(y - a)), slope, curvature: [first, second, mixed] }
 }
 
@@ -317,7 +313,7 @@ fn about(u: &Vector3<f64>, first: &UnitQuaternion<f64>, second: &UnitQuaternion<
     second.fixed_view_mut::<3, 3>(3, 3).copy_from(&own);
     mixed.fixed_view_mut::<3, 3>(3, 3).copy_from(&(skew(&slope) * 0.5 - own));
     let zero = Vector3::zeros();
-    let slopes = [stacked(&zero, &-slope), stacked(&zero, &slope)];
+    let slopes = [stack(&zero, &-slope), stack(&zero, &slope)];
     Jet { value: 2.0 * u.dot(&im), slope: slopes, curvature: [first, second, mixed] }
 }
 
@@ -345,14 +341,10 @@ fn distance(first: &Placed, second: &Placed) -> Jet {
 
 /// `u . (x2 - x1)`, u fixed in the world.
 fn fixed(u: &Vector3<f64>, (c1, a, _): &Placed, (c2, b, _): &Placed) -> Jet {
-    let own = |x: &Vector3<f64>| {
-        let product = u * x.transpose();
-        (product + product.transpose()) * 0.5 - Matrix3::identity() * u.dot(x)
-    };
     let [mut first, mut second] = [Matrix6::zeros(); 2];
-    first.fixed_view_mut::<3, 3>(3, 3).copy_from(&-own(a));
-    second.fixed_view_mut::<3, 3>(3, 3).copy_from(&own(b));
-    let slope = [stacked(&-u, &-a.cross(u)), stacked(u, &b.cross(u))];
+    first.fixed_view_mut::<3, 3>(3, 3).copy_from(&-turned_twice(u, a));
+    second.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned_twice(u, b));
+    let slope = [stack(&-u, &-a.cross(u)), stack(u, &b.cross(u))];
     Jet { value: u.dot(&(c2 + b - c1 - a)), slope, curvature: [first, second, Matrix6::zeros()] }
 }
 
