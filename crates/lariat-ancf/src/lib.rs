@@ -63,6 +63,7 @@ mod point;
 mod quadrature;
 mod real;
 mod reel;
+mod rows;
 mod rule;
 mod scales;
 mod section;

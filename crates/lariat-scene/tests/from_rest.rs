@@ -246,3 +246,33 @@ fn a_state_of_another_scene_is_refused() {
     let error = run::run(&parse(&text, Purpose::Resume), folder.path(), &mut options).unwrap_err();
     assert!(matches!(error, Error::State { .. }), "{error}");
 }
+
+/// A load that a run begins with, and that is taken away: the start is in equilibrium with it, and rests until it changes.
+///
+/// *Source.* Rest; `lariat static` is with the load at t = 0, too.
+#[test]
+fn a_load_with_a_history_begins_in_equilibrium() {
+    let ends = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0]];
+    let rest = format!("elements = 8\n{ROPE}");
+    let load = "[[load]]\ncable = \"a\"\nat = 5.25\nforce = [0.0, -300.0, 40.0]\n\
+                history = [[0.0, 2.0], [0.5, 2.0], [0.6, 0.0]]\n[[probe]]\nname = \"p\"\ncable = \"a\"\nat = 5.25\n";
+    let head = "duration = 1.0\ndt = 0.0125\ninitial = \"equilibrium\"\nengine = \"none\"\n";
+    let text = head.to_string() + &cable("a", ends, 10.5, &rest, [WORLD, WORLD]) + load;
+    let folder = tempfile::tempdir().unwrap();
+    let scene = parse(&text, Purpose::Run);
+    run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+    let rows = |folder: &Path| -> Vec<Vec<f64>> {
+        let text = fs::read_to_string(folder.join("probes/p.csv")).unwrap();
+        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+    };
+    let way = |a: &[f64], b: &[f64]| (1..4).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+    let moved = rows(folder.path());
+    for row in moved.iter().filter(|row| row[0] <= 0.5) {
+        assert!(way(row, &moved[0]) < 1e-6, "{row:?}");
+    }
+    let last = moved.last().unwrap();
+    assert!(way(last, &moved[0]) > 0.1, "{last:?}");
+    let statics = tempfile::tempdir().unwrap();
+    run::statics(&scene, statics.path(), &mut Options::default()).unwrap();
+    assert!(way(&rows(statics.path())[0], &moved[0]) < 1e-9);
+}

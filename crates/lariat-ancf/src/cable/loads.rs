@@ -1,7 +1,7 @@
 //! Gravity and point loads of a cable, changed between steps.
 
 use super::Cable;
-use crate::error::{Error, require, require_finite};
+use crate::error::{Error, require_finite};
 use crate::load::PointLoad;
 use nalgebra::Vector3;
 
@@ -25,17 +25,14 @@ impl Cable {
         &self.model.loads
     }
 
-    /// Adds a point load; a ramp begins now.
+    /// Adds a point load; its ramp and history begin now.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers
     /// that are not finite, [`Error::NotWithReel`] for a load on the element at the eye of a reel.
     pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
         self.check_arc_length(load.arc_length)?;
-        require_finite("force (N)", &load.force)
-            .and_then(|()| require_finite("moment (N m)", &load.moment))
-            .and_then(|()| require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0"))
-            .map_err(|e| e.of_cable(self.name()))?;
+        load.check().map_err(|e| e.of_cable(self.name()))?;
         self.model.loads.push(PointLoad { start: self.time(), ..load });
         if let Err(error) = self.model.check_loads_at_eyes() {
             self.model.loads.pop();
@@ -45,15 +42,15 @@ impl Cable {
         Ok(())
     }
 
-    /// Replaces all point loads. A load that does not change keeps the time at which its ramp
-    /// began; the ramps of others begin now.
+    /// Replaces all point loads. A load that does not change keeps the time at which it began;
+    /// others begin now.
     ///
     /// # Errors
     /// As [`add_load`](Self::add_load); the cable is then as before.
     pub fn set_loads(&mut self, loads: &[PointLoad]) -> Result<(), Error> {
         let before = core::mem::take(&mut self.model.loads);
         for load in loads {
-            if let Err(error) = self.add_load(*load) {
+            if let Err(error) = self.add_load(load.clone()) {
                 self.model.loads = before;
                 self.take_loads();
                 return Err(error);
@@ -84,7 +81,7 @@ impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn is_loaded_steadily(&self, h: f64) -> bool {
         let now = self.time();
-        self.model.loads.iter().all(|load| load.factor(now) == 1.0)
+        self.model.loads.iter().all(|load| load.is_steady(now, now + h))
             && self.model.effects.are_steady(now, now + h)
             && !self.model.force_densities.depend_on_time()
     }

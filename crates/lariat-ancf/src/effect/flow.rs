@@ -33,6 +33,7 @@
 
 use crate::error::{Error, require, require_finite};
 use crate::point::Point;
+use crate::rows::{check_rows, interpolate, is_constant};
 use crate::scales::effect::ROWS;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -106,9 +107,7 @@ impl Flow {
         if self.history.is_empty() || self.velocity == Vector3::zeros() {
             return true;
         }
-        let factor = interpolate(&self.history, from);
-        let between = self.history.iter().filter(|row| from < row[0] && row[0] < to);
-        interpolate(&self.history, to) == factor && between.into_iter().all(|row| row[1] == factor)
+        is_constant(&self.history, from, to)
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -135,24 +134,6 @@ impl Profile {
         let height = position.dot(&up);
         let piece = self.rows.windows(2).find(|r| r[0][0] < height && height < r[1][0]);
         up * piece.map_or(0.0, |r| (r[1][1] - r[0][1]) / (r[1][0] - r[0][0]))
-    }
-}
-
-fn check_rows(what: &str, rows: &[[f64; 2]]) -> Result<(), Error> {
-    rows.iter().flatten().try_for_each(|&x| require(what, x, true, "a number"))?;
-    match rows.windows(2).find(|r| r[1][0] <= r[0][0]) {
-        None => Ok(()),
-        Some(r) => require(what, r[1][0], false, "above the row before it"),
-    }
-}
-
-/// Interpolates linearly, constant outside; `rows` is not empty.
-fn interpolate(rows: &[[f64; 2]], x: f64) -> f64 {
-    let after = rows.partition_point(|row| row[0] <= x);
-    match (after.checked_sub(1).and_then(|i| rows.get(i)), rows.get(after)) {
-        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * ((x - a[0]) / (b[0] - a[0])),
-        (Some(only), None) | (None, Some(only)) => only[1],
-        (None, None) => 1.0,
     }
 }
 

@@ -101,9 +101,7 @@ impl Model {
         for load in &self.loads {
             let s = load.arc_length;
             require("arc length of a load (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;
-            require_finite("force (N)", &load.force)?;
-            require_finite("moment (N m)", &load.moment)?;
-            require("ramp (s)", load.ramp, load.ramp >= 0.0, ">= 0")?;
+            load.check()?;
         }
         for s in self.potentials.list.iter().map(|own| own.arc_length) {
             require("arc length of a potential (m)", s, s >= 0.0 && s <= length * (1.0 + 1e-12), "on the cable")?;

@@ -234,7 +234,8 @@ impl Equations<'_> {
     /// Returns whether the external work is known by energies. Nodes that are attached to bodies
     /// are left to the island.
     fn external_work_is_known(&self, time: f64) -> bool {
-        let steady = |load: &PointLoad| load.moment == Vector3::zeros() && load.factor(time) == 1.0;
+        let steady =
+            |load: &PointLoad| load.moment == Vector3::zeros() && load.history.is_empty() && load.factor(time) == 1.0;
         self.model.supports.iter().all(|(_, support)| support.is_still())
             && self.model.loads.iter().all(steady)
             && self.system.forces.densities.is_none()

@@ -134,6 +134,8 @@ fn the_work_of_moving_supports_and_of_loads_is_counted() {
             let force = PointLoad { ramp: 6.0 * h, ..PointLoad::force(0.9, Vector3::new(3.0, 5.0, -2.0)) };
             cable.add_load(force).unwrap();
             cable.add_load(PointLoad::moment(1.2, Vector3::new(0.0, 0.02, 0.03))).unwrap();
+            let gust = PointLoad::force(0.4, Vector3::new(-2.0, 1.0, 4.0));
+            cable.add_load(gust.with_history([[2.0 * h, 1.0], [4.0 * h, -1.0], [9.0 * h, 0.5]])).unwrap();
             let before = (energies(&cable)[0], work(&cable));
             let worst = broken(&mut cable, h, 12);
             let done = work(&cable) - before.1;

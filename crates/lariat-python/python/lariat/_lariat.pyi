@@ -339,9 +339,17 @@ class Cable:
         """Prescribes the position of a node: the cubic from where it is, at its present velocity, to ``position`` (m) at ``velocity``
         (m/s; default 0) a time ``duration`` (s) later; then it is held there. ``restore`` restores it."""
 
-    def add_load(self, s: float, force: ArrayLike | None = None, *, moment: ArrayLike | None = None, ramp: float = 0.0) -> None:
-        """Adds a constant force (N) and moment (N m) in world axes at an arc length (m), ramped over ``ramp`` s. Raises OutOfRangeError,
-        InvalidValueError."""
+    def add_load(
+        self,
+        s: float,
+        force: ArrayLike | None = None,
+        *,
+        moment: ArrayLike | None = None,
+        ramp: float = 0.0,
+        history: Sequence[tuple[float, float]] = (),
+    ) -> None:
+        """Adds a force (N) and moment (N m) in world axes at an arc length (m), ramped over ``ramp`` s, times the factor of ``history``:
+        rows of seconds from now and factor, linear between them, constant outside. Raises OutOfRangeError, InvalidValueError."""
 
     def clear_loads(self) -> None:
         """Removes all point loads."""

@@ -48,8 +48,9 @@ impl Cable {
         self.change(py, |cable| cable.prescribe(at.0, position.0, velocity, duration))
     }
 
-    /// Adds a constant force (N) and moment (N m) in world axes at an arc length (m), ramped over `ramp` s.
-    #[pyo3(signature = (s, force=None, *, moment=None, ramp=0.0))]
+    /// Adds a force (N) and moment (N m) in world axes at an arc length (m), ramped over `ramp` s, times the factor of
+    /// `history`: rows of seconds from now and factor, linear between them, constant outside.
+    #[pyo3(signature = (s, force=None, *, moment=None, ramp=0.0, history=Vec::new()))]
     fn add_load(
         &self,
         py: Python<'_>,
@@ -57,9 +58,10 @@ impl Cable {
         force: Option<Vector>,
         moment: Option<Vector>,
         ramp: f64,
+        history: Vec<[f64; 2]>,
     ) -> PyResult<()> {
         let [force, moment] = [force, moment].map(|v| v.map_or(Vector3::zeros(), |v| v.0));
-        self.change(py, |cable| cable.add_load(PointLoad { moment, ramp, ..PointLoad::force(s, force) }))
+        self.change(py, |cable| cable.add_load(PointLoad { moment, ramp, history, ..PointLoad::force(s, force) }))
     }
 
     /// Removes all point loads.

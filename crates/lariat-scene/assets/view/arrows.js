@@ -6,15 +6,25 @@ const lengthOf = (v) => Math.hypot(...v);
 const largestOf = (key) => Math.max(0, ...data.loads.map((load) => (load[key] ? lengthOf(load[key]) : 0)));
 const largestLoad = { force: largestOf("force"), moment: largestOf("moment"), perLength: largestOf("perLength") };
 
+// The factor of a history at a time: linear between rows, constant outside, 1 without rows.
+function factorAt(rows, time) {
+  if (!rows || !rows.length) return 1;
+  const next = rows.findIndex(([t]) => t > time);
+  if (next === 0) return rows[0][1];
+  if (next < 0) return rows[rows.length - 1][1];
+  const [[t, a], [u, b]] = [rows[next - 1], rows[next]];
+  return a + ((b - a) * (time - t)) / (u - t);
+}
+
 // The arrows at a frame: { from, vector, heads, label }, vector in m of the scene.
 function loadArrows(frame, time) {
   const arrows = [];
   const put = (from, load, key, share, length, heads, unit) => {
-    const full = lengthOf(load[key]), magnitude = full * share;
+    const full = lengthOf(load[key]), magnitude = full * Math.abs(share);
     if (magnitude === 0) return;
     // the smallest can still be seen
     const shown = size * length * Math.max(0.2, magnitude / largestLoad[key]);
-    const vector = load[key].map((x) => (x / full) * shown);
+    const vector = load[key].map((x) => (x / full) * Math.sign(share) * shown);
     arrows.push({ from, vector, heads, label: unit ? `${figure(magnitude, 3)} ${unit}` : "" });
   };
   for (const load of data.loads) {
@@ -26,7 +36,7 @@ function loadArrows(frame, time) {
       }
       continue;
     }
-    const share = load.ramp > 0 ? Math.min(1, Math.max(0, time / load.ramp)) : 1;
+    const share = (load.ramp > 0 ? Math.min(1, Math.max(0, time / load.ramp)) : 1) * factorAt(load.history, time);
     let from;
     if (load.body === undefined) from = onCable(frame, load.cable, load.at);
     else {

@@ -354,11 +354,8 @@ impl Physics {
         let body = &scene.bodies[index];
         if body.kind == BodyKind::Kinematic {
             // that of Rapier is the mean over its last step
-            return BodyState {
-                velocity: body.course.velocity(time),
-                angular_velocity: body.course.angular_velocity,
-                ..state
-            };
+            let (velocity, angular_velocity) = body.course.velocities(time);
+            return BodyState { velocity, angular_velocity, ..state };
         }
         state
     }

@@ -4,7 +4,8 @@
 //! it is at the beginning of the step.
 
 use super::reading;
-use crate::scene::body::{BodyKind, Course};
+use crate::scene::body::BodyKind;
+use crate::scene::course::Course;
 use crate::scene::{BodyLoadScene, Scene};
 use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
@@ -52,12 +53,11 @@ impl Script {
         }
         for (handle, load) in &self.loads {
             let Some(body) = world.bodies.get_mut(*handle) else { continue };
-            let grown = load.ramp <= 0.0 || self.full_loads;
-            let share = if grown { 1.0 } else { (0.5 * (from + to) / load.ramp).min(1.0) };
             let state = reading::state(body);
             let point = state.position + state.rotation * load.point;
-            body.add_force_at_point(to_vector(&(load.force * share)), to_vector(&point), true);
-            body.add_torque(to_vector(&(load.moment * share)), true);
+            let (force, moment) = load.at(0.5 * (from + to), self.full_loads);
+            body.add_force_at_point(to_vector(&force), to_vector(&point), true);
+            body.add_torque(to_vector(&moment), true);
         }
     }
 }

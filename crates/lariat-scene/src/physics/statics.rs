@@ -2,8 +2,8 @@
 
 use super::{Physics, build};
 use crate::error::Error;
-use crate::scene::Scene;
 use crate::scene::body::BodyKind;
+use crate::scene::{BodyLoadScene, Scene};
 use lariat_ancf::{Cable, EquilibriumReport};
 use lariat_rapier::convert::to_vector;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
@@ -29,18 +29,21 @@ impl Physics {
     /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body with a contact, or a joint that statics do not compute.
     pub fn settle(&mut self, scene: &Scene, fully: bool) -> Result<Settled, Error> {
         self.script.full_loads = fully;
-        let acting = scene.body_loads.iter().filter(|load| fully || load.ramp == 0.0);
-        let forces: Vec<BodyForce> = acting
-            .clone()
-            .map(|load| BodyForce { body: self.bodies[load.body], point: to_vector(&load.point), force: load.force })
-            .collect();
+        let acting = scene.body_loads.iter().filter(|load| fully || load.load.ramp == 0.0);
+        let force = |load: &BodyLoadScene| BodyForce {
+            body: self.bodies[load.body],
+            point: to_vector(&load.point),
+            force: load.at(0.0, fully).0,
+        };
+        let forces: Vec<BodyForce> = acting.clone().map(force).collect();
         for load in &scene.body_loads {
             let body = &mut self.world.bodies[self.bodies[load.body]];
             body.reset_forces(false);
             body.reset_torques(false);
         }
         for load in acting {
-            self.world.bodies[self.bodies[load.body]].add_torque(to_vector(&load.moment), true);
+            let (_, moment) = load.at(0.0, fully);
+            self.world.bodies[self.bodies[load.body]].add_torque(to_vector(&moment), true);
         }
         let found = self.cables.equilibrium_under(&mut self.world, &forces);
         self.settled(scene, &found.map_err(|error| self.explain(scene, 0.0, error))?)

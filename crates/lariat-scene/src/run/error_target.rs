@@ -163,7 +163,7 @@ fn described(error: &StudyError<Stopped>) -> String {
 
 /// Returns whether a cable is set in motion in no time: at the start, or where the path of a body that holds it has a corner.
 fn velocities_jump(scene: &Scene, done: &Done) -> bool {
-    let corners = |body: &BodyScene| body.course.path.iter().any(|(time, _)| 0.0 < *time && *time < scene.duration);
+    let corners = |body: &BodyScene| body.course.path.corners().any(|time| 0.0 < time && time < scene.duration);
     let bodies = scene.attachments.iter().filter_map(|attachment| attachment.body);
     done.world.velocities_jump || bodies.into_iter().any(|body| corners(&scene.bodies[body]))
 }
@@ -174,7 +174,7 @@ fn check(scene: &Scene, error: f64) -> Result<(), Error> {
     let mut least = (LEAST * longest, "double precision");
     if scene.engine == Engine::Rapier {
         let path = |body: &BodyScene| {
-            body.course.path.iter().map(|(_, p)| *p).chain([body.course.position]).collect::<Vec<_>>()
+            body.course.path.positions.iter().map(|(_, p)| *p).chain([body.course.position]).collect::<Vec<_>>()
         };
         let bodies = scene.bodies.iter().flat_map(path);
         let cables = scene.cables.iter().flat_map(|cable| cable.points.iter().copied());

@@ -1,12 +1,14 @@
 //! `[[body]]`: a rigid body, and where a fixed or kinematic one is at any time.
 
+use super::course::{Course, Path as CoursePath};
 use super::mesh::Mesh;
+use super::path::{self, PathOrRows, PathTable};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Kind, NOT_NEGATIVE, POSITIVE, UNIT, choice, table};
 use lariat_ancf::Vector3;
 use nalgebra::UnitQuaternion;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::path::Path;
 
 /// Largest distance of `position` from the start of a path, in m.
@@ -55,8 +57,9 @@ table! {
         friction: Option<f64> = ("Rapier's"), Kind::Number(NOT_NEGATIVE.single());
         /// Coefficient of restitution of a body with a shape.
         restitution: f64 = 0.0, Kind::Number(UNIT.single());
-        /// Path of the origin of a kinematic body. Linear between rows, at rest outside; put corners on multiples of `dt`.
-        path: Option<Vec<[f64; 4]>> = ("none"), Kind::Ascending(&["t", "x", "y", "z"]), "s, m";
+        /// Path of the origin of a kinematic body, linear between rows, at rest outside, with corners that belong on multiples of `dt`; or a
+        /// table with rotations, a file, cubics.
+        path: Option<PathOrRows> = ("none"), Kind::Either(&[Kind::Ascending(&["t", "x", "y", "z"]), Kind::Table(&PathTable::TABLE)]), "s, m";
     }
 }
 
@@ -131,21 +134,6 @@ pub struct BodyScene {
     pub restitution: f64,
 }
 
-/// Where a body starts, and where it goes if nothing pulls at it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Course {
-    /// Origin at t = 0 in m.
-    pub position: Vector3<f64>,
-    /// Rotation at t = 0.
-    pub rotation: UnitQuaternion<f64>,
-    /// Velocity of the origin in m/s.
-    pub velocity: Vector3<f64>,
-    /// Angular velocity in rad/s, world axes.
-    pub angular_velocity: Vector3<f64>,
-    /// Positions at times, in s and m, by ascending time. Empty for none.
-    pub path: Vec<(f64, Vector3<f64>)>,
-}
-
 /// Reads the body at a path of keys; files are named from `folder`.
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Path) -> Result<BodyScene, Error> {
     check_kind(doc, at, &row)?;
@@ -167,6 +155,11 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
         }
         _ => {}
     }
+    let path = match row.path.clone() {
+        Some(path) => path::read(doc, &at.key("path"), path, folder)?,
+        None => CoursePath::default(),
+    };
+    check_path(doc, at, &row, &path)?;
     let mut body = BodyScene {
         mass: mass(doc, at, &row, &shape)?,
         inertia: inertia(doc, &at.key("inertia"), row.inertia)?,
@@ -178,13 +171,14 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
             rotation: UnitQuaternion::from_scaled_axis(row.rotation),
             velocity: row.velocity.unwrap_or_default(),
             angular_velocity: row.angular_velocity.unwrap_or_default(),
-            path: path(doc, &at.key("path"), row.path.as_deref().unwrap_or_default())?,
+            path,
         },
         angle: row.rotation.norm(),
         friction: row.friction,
         restitution: row.restitution,
     };
-    if !body.course.path.is_empty() {
+    body.course.rotation = body.pose(0.0).1;
+    if !body.course.path.positions.is_empty() {
         let start = body.pose(0.0).0;
         if let Some(position) = row.position.filter(|position| (start - position).norm() > PATH_GAP) {
             let problem = format!("{:?} is not where the path is at t = 0", position.as_slice());
@@ -211,8 +205,19 @@ fn check_kind(doc: &Document<'_>, at: &KeyPath, row: &BodyTable) -> Result<(), E
             return Err(doc.conflict(&at.key(key), format!("a {} body has no {key}", row.kind.name())));
         }
     }
-    if row.path.is_some() && row.velocity.is_some() {
-        return Err(doc.conflict(&at.key("velocity"), "the path determines the velocity"));
+    Ok(())
+}
+
+/// Checks that a body has nothing beside its path that the path says.
+fn check_path(doc: &Document<'_>, at: &KeyPath, row: &BodyTable, path: &CoursePath) -> Result<(), Error> {
+    for (key, given) in [
+        ("velocity", row.velocity.is_some() && !path.positions.is_empty()),
+        ("angular_velocity", row.angular_velocity.is_some() && !path.rotations.is_empty()),
+        ("rotation", row.rotation != Vector3::zeros() && !path.rotations.is_empty()),
+    ] {
+        if given {
+            return Err(doc.conflict(&at.key(key), format!("the path determines the {}", key.replace('_', " "))));
+        }
     }
     Ok(())
 }
@@ -240,15 +245,6 @@ fn inertia(doc: &Document<'_>, at: &KeyPath, moments: Option<[f64; 3]>) -> Resul
     Ok(Some(Vector3::from(moments)))
 }
 
-fn path(doc: &Document<'_>, at: &KeyPath, rows: &[[f64; 4]]) -> Result<Vec<(f64, Vector3<f64>)>, Error> {
-    let row = |&[t, x, y, z]: &[f64; 4]| {
-        let position = Vector3::new(x, y, z);
-        doc.check_single(at, &position)?;
-        Ok((t, position))
-    };
-    rows.iter().map(row).collect()
-}
-
 impl BodyScene {
     /// Returns origin (m) and rotation at a time (s): for a dynamic body those at t = 0.
     pub fn pose(&self, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
@@ -273,58 +269,9 @@ impl BodyScene {
     }
 }
 
-impl Course {
-    /// Returns origin (m) and rotation at a time (s).
-    pub fn pose(&self, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
-        let position =
-            if self.path.is_empty() { self.position + self.velocity * time } else { along(&self.path, time).0 };
-        (position, UnitQuaternion::from_scaled_axis(self.angular_velocity * time) * self.rotation)
-    }
-
-    /// Returns whether it stays where it starts.
-    pub fn is_at_rest(&self) -> bool {
-        self.path.is_empty() && (self.velocity, self.angular_velocity) == Default::default()
-    }
-
-    /// Returns the velocity of the origin (m/s) at a time (s); at a row of the path that of the part which begins there.
-    pub fn velocity(&self, time: f64) -> Vector3<f64> {
-        if self.path.is_empty() { self.velocity } else { along(&self.path, time).1 }
-    }
-}
-
-/// Returns position and velocity on a path: linear between rows, constant before the first and after the last.
-fn along(path: &[(f64, Vector3<f64>)], time: f64) -> (Vector3<f64>, Vector3<f64>) {
-    let next = path.partition_point(|(t, _)| *t <= time);
-    match (next.checked_sub(1).and_then(|i| path.get(i)), path.get(next)) {
-        (Some((t0, x0)), Some((t1, x1))) => {
-            let velocity = (x1 - x0) / (t1 - t0);
-            (x0 + velocity * (time - t0), velocity)
-        }
-        (Some((_, x)), None) | (None, Some((_, x))) => (*x, Vector3::zeros()),
-        (None, None) => (Vector3::zeros(), Vector3::zeros()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_path_is_linear_between_its_rows_and_constant_outside() {
-        let path = [(1.0, Vector3::zeros()), (2.0, Vector3::new(0.0, 4.0, 0.0)), (4.0, Vector3::new(0.0, 2.0, 0.0))];
-        for (time, y, v) in [
-            (0.0, 0.0, 0.0),
-            (1.0, 0.0, 4.0),
-            (1.5, 2.0, 4.0),
-            (2.0, 4.0, -1.0),
-            (3.0, 3.0, -1.0),
-            (4.0, 2.0, 0.0),
-            (9.0, 2.0, 0.0),
-        ] {
-            let (position, velocity) = along(&path, time);
-            assert_eq!((position.y, velocity.y), (y, v), "t = {time}");
-        }
-    }
 
     #[test]
     fn a_point_of_a_rotated_body_is_converted_to_world_axes() {
@@ -339,7 +286,7 @@ mod tests {
                 rotation: UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2)),
                 velocity: Vector3::zeros(),
                 angular_velocity: Vector3::zeros(),
-                path: Vec::new(),
+                path: CoursePath::default(),
             },
             angle: std::f64::consts::FRAC_PI_2,
             friction: None,

@@ -89,7 +89,7 @@ impl Scene {
     pub fn add_loads(&self, cable: &mut Cable, index: usize, ramped: bool, at_once: bool) -> Result<(), Error> {
         let chosen = |load: &&LoadScene| load.cable == index && (load.load.ramp > 0.0) == ramped;
         for LoadScene { load, .. } in self.loads.iter().filter(chosen) {
-            cable.add_load(PointLoad { ramp: if at_once { 0.0 } else { load.ramp }, ..*load })?;
+            cable.add_load(PointLoad { ramp: if at_once { 0.0 } else { load.ramp }, ..load.clone() })?;
         }
         Ok(())
     }

@@ -27,6 +27,9 @@ table! {
         /// Time from zero to the full load. A load with a ramp is zero at t = 0 and takes no part in `initial = "equilibrium"`.
         /// `lariat static` applies all loads in full.
         ramp: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+        /// Factor of time, beside the ramp: linear between rows, constant outside; put corners on multiples of `dt`. Statics and
+        /// `initial = "equilibrium"` are with its value at t = 0.
+        history: Option<Vec<[f64; 2]>> = ("1"), Kind::Ascending(&["t", "factor"]), "s, 1";
     }
     choose Choose::AtLeastOne(&["force", "moment"]);
 }
@@ -49,18 +52,25 @@ pub struct BodyLoadScene {
     pub body: usize,
     /// Where the force acts, in axes of the body from its origin, in m.
     pub point: Vector3<f64>,
-    /// Force in N, world axes.
-    pub force: Vector3<f64>,
-    /// Moment in N m, world axes.
-    pub moment: Vector3<f64>,
-    /// Time from zero to full in s.
-    pub ramp: f64,
+    /// Force, moment, and how they change with time; its arc length is 0.
+    pub load: PointLoad,
+}
+
+impl BodyLoadScene {
+    /// Returns force (N) and moment (N m) at a time in s; `in_full` whatever its ramp.
+    pub fn at(&self, time: f64, in_full: bool) -> (Vector3<f64>, Vector3<f64>) {
+        let PointLoad { force, moment, ramp, .. } = self.load;
+        let factor = if in_full && ramp > 0.0 { self.load.history_at(time) } else { self.load.factor(time) };
+        (force * factor, moment * factor)
+    }
 }
 
 /// Reads the load in row `i` and adds it to the scene.
 pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTable) -> Result<(), Error> {
     let at = KeyPath::root("load").item(i);
-    let (force, moment, ramp) = (row.force.unwrap_or_default(), row.moment.unwrap_or_default(), row.ramp);
+    let (force, moment) = (row.force.unwrap_or_default(), row.moment.unwrap_or_default());
+    let history = row.history.unwrap_or_default();
+    let mut load = PointLoad { force, moment, ramp: row.ramp, history, ..PointLoad::default() };
     if let Some(name) = &row.body {
         for (key, given) in [("cable", row.cable.is_some()), ("at", row.at.is_some())] {
             if given {
@@ -76,7 +86,7 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
         for (key, vector) in [("point", &point), ("force", &force), ("moment", &moment)] {
             doc.check_single(&at.key(key), vector)?;
         }
-        scene.body_loads.push(BodyLoadScene { body, point, force, moment, ramp });
+        scene.body_loads.push(BodyLoadScene { body, point, load });
         return Ok(());
     }
     if row.point.is_some() {
@@ -87,7 +97,8 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
     let cable = cable(doc, &at.key("cable"), scene, &name)?;
     let position = row.at.ok_or_else(|| doc.missing(&at.key("at")))?;
     let (cable, arc_length) = point(doc, &at.key("at"), position, scene, cable)?;
-    scene.loads.push(LoadScene { cable, load: PointLoad { arc_length, force, moment, ramp, start: 0.0 }, row: i });
+    load.arc_length = arc_length;
+    scene.loads.push(LoadScene { cable, load, row: i });
     Ok(())
 }
 
@@ -95,7 +106,7 @@ pub(super) fn read(doc: &Document<'_>, scene: &mut Scene, i: usize, row: LoadTab
 pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, mut cables: Vec<Cable>) -> Result<(), Error> {
     for own in &scene.loads {
         let at = KeyPath::root("load").item(own.row);
-        cables[own.cable].add_load(own.load).map_err(|error| {
+        cables[own.cable].add_load(own.load.clone()).map_err(|error| {
             doc.error_accepting(
                 &at.key("at"),
                 Problem::Conflict(error.to_string()),

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `mod`: [`SceneTable`] | the scene itself |
 //! | [`cable`], [`integrator`], [`effects`], [`flow`], [`breaking`], [`reel`] | `[[cable]]` |
-//! | [`body`], `mesh` | `[[body]]` |
+//! | [`body`], [`course`], `path`, `mesh` | `[[body]]` |
 //! | [`joint`], [`attachment`], [`junction`], [`sheave`], [`load`], [`probe`] | the tables of these names |
 //! | `references` | names and points that tables refer to |
 //! | `passing` | the parts of a cable between its sheaves |
@@ -20,6 +20,7 @@ pub mod body;
 pub mod breaking;
 mod build;
 pub mod cable;
+pub mod course;
 pub mod effects;
 pub mod elements;
 pub mod flow;
@@ -29,6 +30,7 @@ pub mod junction;
 pub mod load;
 mod mesh;
 mod passing;
+mod path;
 mod plausibility;
 pub mod probe;
 pub mod reel;

@@ -68,7 +68,7 @@ impl Scene {
             let on_it = || self.body_loads.iter().filter(|load| load.body == i);
             let share = match body.mass {
                 Some(BodyMass::Mass(mass)) => {
-                    1.0 + on_it().map(|load| load.force.dot(&down)).sum::<f64>() / (mass * self.gravity.norm())
+                    1.0 + on_it().map(|load| load.load.force.dot(&down)).sum::<f64>() / (mass * self.gravity.norm())
                 }
                 _ => f64::from(u8::from(on_it().next().is_none())),
             };
@@ -167,7 +167,7 @@ impl Scene {
     /// Returns a warning for each load whose ramp the run does not see the half of.
     fn unfinished_ramps(&self) -> impl Iterator<Item = Warning> {
         let cables = self.loads.iter().map(|load| (&self.cables[load.cable].name, load.load.ramp));
-        let bodies = self.body_loads.iter().map(|load| (&self.bodies[load.body].name, load.ramp));
+        let bodies = self.body_loads.iter().map(|load| (&self.bodies[load.body].name, load.load.ramp));
         let unfinished = cables.chain(bodies).filter(|(_, ramp)| *ramp > 2.0 * self.duration);
         unfinished.map(|(on, ramp_s)| Warning::UnfinishedRamp { on: on.clone(), ramp_s, duration_s: self.duration })
     }

@@ -8,7 +8,7 @@
 use super::{Decimator, Frame};
 use crate::run::{Summary, columns};
 use crate::scene::body::BodyShape;
-use crate::scene::{AttachmentScene, Scene, Target};
+use crate::scene::{AttachmentScene, BodyLoadScene, Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -107,13 +107,14 @@ fn loads(scene: &Scene, statics: bool) -> Value {
     for load in &scene.loads {
         let (cable, l) = (scene.whole(load.cable), &load.load);
         loads.push(json!({
-            "cable": cable, "at": on_page(scene, load.cable, l.arc_length), "force": l.force.as_slice(), "moment": l.moment.as_slice(), "ramp": ramp(l.ramp),
+            "cable": cable, "at": on_page(scene, load.cable, l.arc_length), "force": l.force.as_slice(), "moment": l.moment.as_slice(),
+            "ramp": ramp(l.ramp), "history": l.history,
         }));
     }
-    for load in scene.body_loads.iter().filter(|_| !statics) {
+    for BodyLoadScene { body, point, load } in scene.body_loads.iter().filter(|_| !statics) {
         loads.push(json!({
-            "body": load.body, "point": load.point.as_slice(), "force": load.force.as_slice(),
-            "moment": load.moment.as_slice(), "ramp": load.ramp,
+            "body": body, "point": point.as_slice(), "force": load.force.as_slice(),
+            "moment": load.moment.as_slice(), "ramp": load.ramp, "history": load.history,
         }));
     }
     for (c, cable) in scene.cables.iter().enumerate() {

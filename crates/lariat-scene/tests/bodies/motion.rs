@@ -20,6 +20,23 @@ fn a_load_accelerates_and_rotates_a_body() {
     }
 }
 
+/// *Source.* The area under the history, F/m of it; a ramp is a factor beside it.
+#[test]
+fn a_load_with_a_history_gives_its_impulse() {
+    let body = "shape = \"none\"\nmass = 2.0\ninertia = [1.0, 1.0, 0.5]";
+    for (history, share) in [
+        ("history = [[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]", 0.5),
+        ("history = [[0.2, 0.0], [0.3, -2.0], [0.4, 0.0]]", -0.2),
+        ("history = [[0.5, 0.5]]", 0.5),
+        ("ramp = 0.5\nhistory = [[0.5, 1.0], [0.55, 0.0]]", 0.25 + 0.025),
+    ] {
+        let load = format!("[[load]]\nbody = \"b\"\nforce = [4.0, 0.0, 0.0]\nmoment = [0.0, 0.0, 1.0]\n{history}");
+        let text = free(body, &load).replace("duration", "dt = 0.0125\nduration");
+        let row = Results::of_text("run", &text).done().last("b");
+        assert!((row[8] - 2.0 * share).abs() < 1e-5 && (row[13] - 2.0 * share).abs() < 1e-5, "{history}: {row:?}");
+    }
+}
+
 /// *Source.* `m v^2/2 + I w^2/2`, `m v`, `r x m v + I w`; volumes of ball, cylinder and capsule; the hull of a tetrahedron.
 #[test]
 fn a_body_has_the_mass_of_its_shape_and_its_initial_velocity() {
@@ -123,5 +140,56 @@ at = "start"
         let off = (0..3).map(|i| (start[1 + i] - expected[i]).powi(2)).sum::<f64>().sqrt();
         assert!(off < 1e-6, "{off:.1e} m at {t} s");
         assert!((arm[10] - if (0.2..0.6 - 1e-9).contains(&t) { 2.0 } else { 0.0 }).abs() < 1e-9, "{arm:?}");
+    }
+}
+
+/// A file of places and rotations, as a motion tracker writes it: heave and roll of a deck.
+///
+/// *Source.* The functions that the rows are of; cubics between them are of the third order.
+#[test]
+fn a_smooth_path_of_a_file_moves_and_turns_the_body() {
+    let roll = |t: f64| (0.4 * (2.0 * t).sin(), 0.8 * (2.0 * t).cos());
+    let heave = |t: f64| (0.3 * (3.0 * t).cos(), -0.9 * (3.0 * t).sin());
+    let folder = tempfile::tempdir().unwrap();
+    let rows = (0..=40).map(|i| 0.025 * f64::from(i)).map(|t| format!("{t},1,{},0,0,0,{}\n", heave(t).0, roll(t).0));
+    fs::write(folder.path().join("deck.csv"), "t,x,y,z,rx,ry,rz\n".to_string() + &rows.collect::<String>()).unwrap();
+    let text = r#"
+duration = 0.9
+dt = 0.01
+gravity = [0.0, 0.0, 0.0]
+[[body]]
+name = "deck"
+kind = "kinematic"
+shape = "none"
+path = { csv = "deck.csv" }
+[[cable]]
+name = "c"
+points = [[2.0, 0.3, 0.0], [2.5, 0.3, 0.0]]
+section = { round = 0.01 }
+density = 1000.0
+youngs_modulus = 1e7
+[[attachment]]
+cable = "c"
+at = "start"
+body = "deck"
+[[probe]]
+name = "deck"
+body = "deck"
+[[probe]]
+name = "start"
+cable = "c"
+at = "start"
+"#;
+    let file = folder.path().join("scene.toml");
+    fs::write(&file, text).unwrap();
+    let results = Results::of("run", &file, &[]).done();
+    for (deck, start) in results.rows("deck").iter().zip(results.rows("start")) {
+        let t = deck[0];
+        let ((y, v), (angle, spin)) = (heave(t), roll(t));
+        assert!((deck[2] - y).abs() < 3e-5 && (deck[9] - v).abs() < 5e-3, "{deck:?}");
+        assert!((deck[6] - (0.5 * angle).sin()).abs() < 3e-5 && (deck[13] - spin).abs() < 5e-3, "{deck:?}");
+        let expected = [1.0 + angle.cos(), y + angle.sin(), 0.0];
+        let off = (0..3).map(|i| (start[1 + i] - expected[i]).powi(2)).sum::<f64>().sqrt();
+        assert!(off < 1e-4, "{off:.1e} m at {t} s");
     }
 }

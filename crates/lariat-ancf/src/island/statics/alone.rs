@@ -50,7 +50,11 @@ impl Cable {
         let (before, revision, work) = (self.snapshot.clone(), self.revision, self.snapshot.work);
         let loads = self.model.loads.clone();
         // the point loads ramp with a time from 0 to 1 while statics are solved
-        self.model.loads.iter_mut().for_each(|load| (load.ramp, load.start) = (1.0, 0.0));
+        let now = self.time();
+        for load in &mut self.model.loads {
+            load.stay(now);
+            (load.ramp, load.start) = (1.0, 0.0);
+        }
         let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0 };
         let outcome = find(&mut alone);
         let iterations = alone.searched + alone.budget.done;

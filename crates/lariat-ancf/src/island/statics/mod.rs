@@ -105,13 +105,16 @@ pub fn equilibrium(
     for body in &mut still {
         (body.velocity, body.angular_velocity, body.memory) = (Vector3::zeros(), Vector3::zeros(), None);
     }
-    cables.iter_mut().flat_map(|cable| &mut cable.model.loads).for_each(|load| load.ramp = 0.0);
+    for cable in cables.iter_mut() {
+        let now = cable.time();
+        cable.model.loads.iter_mut().for_each(|load| load.stay(now));
+    }
     let outcome = settle(cables, &mut still, (pins, joints, sheaves), options);
     for (cable, before) in cables.iter_mut().zip(before) {
         if outcome.is_err() {
             **cable = before;
         } else {
-            cable.model.loads.iter_mut().zip(&before.model.loads).for_each(|(load, own)| load.ramp = own.ramp);
+            cable.model.loads.clone_from(&before.model.loads);
         }
     }
     let report = outcome?;
