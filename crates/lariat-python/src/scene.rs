@@ -32,6 +32,11 @@ impl Recorded {
         py.detach(|| self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).page())
     }
 
+    /// The motion as an animated SVG.
+    fn svg(&self, py: Python<'_>) -> String {
+        py.detach(|| self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).svg())
+    }
+
     /// The motion as OpenUSD.
     fn usd(&self, py: Python<'_>) -> String {
         py.detach(|| self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).usd())

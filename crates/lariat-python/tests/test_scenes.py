@@ -149,7 +149,7 @@ def test_a_run_pickles_with_its_page() -> None:
     run = lariat.run(ROPE, progress=False)
     again = pickle.loads(pickle.dumps(run))
     assert (again.probes["tip"].rows == run.probes["tip"].rows).all() and again.summary == run.summary
-    assert again.page() == run.page() and again.usd() == run.usd()
+    assert again.page() == run.page() and again.usd() == run.usd() and again.svg() == run.svg()
 
 
 def test_integrators_pickle() -> None:

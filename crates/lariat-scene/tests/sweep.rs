@@ -168,3 +168,27 @@ fn a_run_is_written_as_openusd() {
     run::run(&scene, folder.path(), &mut Options::default()).unwrap();
     assert!(!folder.path().join("run.usda").exists());
 }
+
+/// Each picture is a state of the run: the held end stays at its place, the free one is at as many places as there are pictures.
+#[test]
+fn a_run_is_written_as_an_animated_picture() {
+    let scene = Scene::parse("rope.toml", TEXT, &[], Purpose::Run).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    run::run(&scene, folder.path(), &mut Options { svg: true, ..Options::default() }).unwrap();
+    let text = fs::read_to_string(folder.path().join("run.svg")).unwrap();
+    let svg = roxmltree::Document::parse(&text).unwrap();
+    let path = svg.descendants().find(|node| node.has_tag_name("path")).unwrap();
+    let moving = path.children().find(|node| node.attribute("attributeName") == Some("d")).unwrap();
+    let pictures: Vec<&str> = moving.attribute("values").unwrap().split(';').collect();
+    assert_eq!(path.attribute("d"), Some(pictures[0]));
+    let ends =
+        |place: fn(&str) -> &str| pictures.iter().map(|d| place(d)).collect::<std::collections::HashSet<_>>().len();
+    assert_eq!(ends(|d| d.split('C').next().unwrap_or_default()), 1);
+    assert!(
+        pictures.len() > 10 && ends(|d| d.rsplit_once(' ').map_or("", |(_, y)| y)) > pictures.len() / 2,
+        "{pictures:?}"
+    );
+    assert_eq!(run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap().svg(), text);
+    run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+    assert!(!folder.path().join("run.svg").exists());
+}

@@ -98,13 +98,16 @@ class Probe:
 
 
 class _Written:
-    """The page and the motion of a run that was pickled."""
+    """The page, the picture and the motion of a run that was pickled."""
 
-    def __init__(self, page: str, usd: str) -> None:
-        self._page, self._usd = page, usd
+    def __init__(self, page: str, svg: str, usd: str) -> None:
+        self._page, self._svg, self._usd = page, svg, usd
 
     def page(self) -> str:
         return self._page
+
+    def svg(self) -> str:
+        return self._svg
 
     def usd(self) -> str:
         return self._usd
@@ -121,7 +124,7 @@ class Run:
         self._recorded = recorded
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_recorded": _Written(self.page(), self.usd())}
+        return {**self.__dict__, "_recorded": _Written(self.page(), self.svg(), self.usd())}
 
     @property
     def t(self) -> Array:
@@ -145,6 +148,14 @@ class Run:
             (Path(folder) / "probes" / f"{name}.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
         (Path(folder) / "summary.json").write_text(json.dumps(self.summary, indent=2) + "\n", encoding="utf-8")
         (Path(folder) / "view.html").write_text(self.page(), encoding="utf-8")
+
+    def svg(self) -> str:
+        """Returns the motion as an animated SVG, for a README or a page: no script, any browser."""
+        return self._recorded.svg()
+
+    def save_svg(self, path: str | PathLike[str]) -> None:
+        """Writes the motion as an animated SVG."""
+        Path(path).write_text(self.svg(), encoding="utf-8")
 
     def usd(self) -> str:
         """Returns the motion as OpenUSD (.usda): curves and bodies with time samples, and the stiffness of the cables."""

@@ -87,6 +87,9 @@ struct SceneArguments {
     /// coarse, of cables with fidelity game wrong
     #[arg(long, value_name = "LEVEL")]
     warn: Option<Level>,
+    /// Write DIR/run.svg, the motion as an animated picture for a page or a README, too
+    #[arg(long)]
+    svg: bool,
     /// Write DIR/run.usda, the motion as OpenUSD, too
     #[arg(long)]
     usd: bool,
@@ -137,6 +140,21 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
+/// Returns a flag that Ctrl-C sets; the second one ends the process at once.
+fn stopped_by_ctrl_c() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    let handler = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    if let Err(error) = handler {
+        let _ = writeln!(io::stderr(), "warning: Ctrl-C will leave no summary: {error}");
+    }
+    stop
+}
+
 fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<Summary, Error> {
     let purpose = if from.is_some() { Purpose::Resume } else { Purpose::Run };
     let scene = Scene::read(&arguments.scene, &arguments.set, purpose)?;
@@ -148,17 +166,7 @@ fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<S
         return Err(Error::Output { path: arguments.out.clone(), source });
     }
     let from = from.as_deref().map(State::read).transpose()?;
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    let handler = ctrlc::set_handler(move || {
-        // the second Ctrl-C does not wait for the host step to end
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
-    if let Err(error) = handler {
-        let _ = writeln!(io::stderr(), "warning: Ctrl-C will not leave a summary: {error}");
-    }
+    let stop = stopped_by_ctrl_c();
     let bar = RefCell::new(progress::Bar::new(scene.duration));
     let mut report = |time: f64| bar.borrow_mut().advance(time);
     let mut pilot = |resolution: &Resolution| bar.borrow_mut().begin_run(resolution);
@@ -169,6 +177,7 @@ fn run_scene(RunArguments { scene: arguments, from }: &RunArguments) -> Result<S
         warn_level: arguments.warn,
         error: arguments.error,
         pilot: Some(&mut pilot),
+        svg: arguments.svg,
         usd: arguments.usd,
         from,
     };
@@ -186,6 +195,7 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
         warn_level: arguments.warn,
         error: arguments.error,
         pilot: Some(&mut pilot),
+        svg: arguments.svg,
         usd: arguments.usd,
         ..Options::default()
     };

@@ -5,8 +5,6 @@ use crate::sweep::{self, Row, Source, Store};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Args)]
 pub struct SweepArguments {
@@ -33,13 +31,7 @@ pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
     let points: Vec<Vec<String>> = points.into_iter().map(|point| [&arguments.set[..], &point].concat()).collect();
     source.check(&points)?;
     let store = Store::open(&arguments.out, &source)?;
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
+    let stop = super::stopped_by_ctrl_c();
     let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg} (ETA {eta})");
     let bar = ProgressBar::new(points.len() as u64);
     if let Ok(style) = style {

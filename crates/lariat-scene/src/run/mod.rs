@@ -69,7 +69,7 @@ use crate::scene::{Purpose, Scene, Target};
 use cpu_time::ProcessTime;
 use lariat_ancf::Level;
 use lariat_ancf::study::{Record, Resolution};
-use output::{Kept, Output};
+use output::{Extras, Kept, Output};
 use schedule::{Schedule, nominal};
 use std::path::Path;
 use std::sync::Arc;
@@ -94,6 +94,8 @@ pub struct Options<'a> {
     pub error: Option<f64>,
     /// Called before each run of a scene that an error is asked of.
     pub pilot: Option<&'a mut dyn FnMut(&Resolution)>,
+    /// Whether [`run`] and [`statics`] write `run.svg`, the motion as an animated picture, too.
+    pub svg: bool,
     /// Whether [`run`] and [`statics`] write `run.usda`, the motion as OpenUSD, too.
     pub usd: bool,
     /// Where a run begins, in place of what the scene says; not together with `error`. The scene is read with [`Purpose::Resume`].
@@ -118,8 +120,8 @@ pub fn statics(scene: &Scene, out: &Path, options: &mut Options<'_>) -> Result<S
 }
 
 fn to_folder(scene: &Scene, out: &Path, purpose: Purpose, options: &mut Options<'_>) -> Result<Summary, Error> {
-    let usd = options.usd;
-    let open = |scene: &Scene| Output::create(scene, out, usd, purpose == Purpose::Static);
+    let extras = Extras { svg: options.svg, usd: options.usd, state: purpose == Purpose::Static };
+    let open = |scene: &Scene| Output::create(scene, out, extras);
     let Recorded { summary, kept, outcome, .. } = conduct(scene, &open, purpose, options)?;
     outcome.and(kept.map(|_| ())).map(|()| summary)
 }

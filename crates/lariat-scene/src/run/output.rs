@@ -19,9 +19,21 @@ use std::time::Duration;
 const SUMMARY: &str = "summary.json";
 const PAGE: &str = "view.html";
 const PROBES: &str = "probes";
+const SVG: &str = "run.svg";
 const USD: &str = "run.usda";
 /// What a run can start from.
 pub(super) const STATE: &str = "state";
+
+/// The files that a run writes only if asked.
+#[derive(Clone, Copy)]
+pub(super) struct Extras {
+    /// Whether `run.svg` is written.
+    pub svg: bool,
+    /// Whether `run.usda` is written.
+    pub usd: bool,
+    /// Whether `state` is written.
+    pub state: bool,
+}
 
 /// The file of a probe.
 struct ProbeFile {
@@ -37,10 +49,7 @@ enum Sink {
         folder: Folder,
         files: Vec<ProbeFile>,
         text: String,
-        /// Whether `run.usda` is written.
-        usd: bool,
-        /// Whether `state` is written.
-        state: bool,
+        extras: Extras,
     },
     /// The rows of each probe, one after the other.
     Memory(Vec<Vec<f64>>),
@@ -63,9 +72,12 @@ pub(super) struct Kept {
 
 impl Output {
     /// Creates the folder and its files with their headers. Files that the last run wrote there are removed.
-    pub fn create(scene: &Scene, folder: &Path, usd: bool, state: bool) -> Result<Self, Error> {
+    pub fn create(scene: &Scene, folder: &Path, extras: Extras) -> Result<Self, Error> {
         let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
-        let own = [SUMMARY, PAGE].into_iter().chain(usd.then_some(USD)).chain(state.then_some(STATE)).map(String::from);
+        let Extras { svg, usd, state } = extras;
+        let asked =
+            [(svg, SVG), (usd, USD), (state, STATE)].into_iter().filter(|(asked, _)| *asked).map(|(_, name)| name);
+        let own = [SUMMARY, PAGE].into_iter().chain(asked).map(String::from);
         let folder = Folder::take(folder, &own.chain(names).collect::<Vec<_>>(), is_result)?;
         let fail = |path: &Path| {
             let path = path.to_path_buf();
@@ -81,7 +93,7 @@ impl Output {
             file.write_all(header.as_bytes()).map_err(fail(&path))?;
             files.push(ProbeFile { path, file, length: header.len() as u64 });
         }
-        let sink = Sink::Folder { folder, files, text: String::new(), usd, state };
+        let sink = Sink::Folder { folder, files, text: String::new(), extras };
         Ok(Output { sink, view: Recorder::new(scene), row: Vec::new() })
     }
 
@@ -127,9 +139,9 @@ impl Output {
     pub fn finish(self, summary: &Summary, world: &World) -> Result<Kept, Error> {
         let Output { sink, mut view, .. } = self;
         view.close(world);
-        let (folder, usd, state) = match sink {
+        let (folder, Extras { svg, usd, state }) = match sink {
             Sink::Memory(rows) => return Ok(Kept { rows, view }),
-            Sink::Folder { folder, usd, state, .. } => (folder, usd, state && summary.failed.is_none()),
+            Sink::Folder { folder, extras, .. } => (folder, extras),
         };
         let write = |name: &str, text: String| {
             let (path, time) = (folder.file(name), world.time());
@@ -141,9 +153,10 @@ impl Output {
         };
         let written = write(SUMMARY, summary.to_json() + "\n");
         let page = write(PAGE, view.page(world, summary));
+        let picture = if svg { write(SVG, view.svg(world)) } else { Ok(()) };
         let motion = if usd { write(USD, view.usd(world)) } else { Ok(()) };
-        let kept = if state { write(STATE, State::of(world)?.to_text()) } else { Ok(()) };
-        page.and(motion).and(written).and(kept).map(|()| Kept { rows: Vec::new(), view })
+        let kept = if state && summary.failed.is_none() { write(STATE, State::of(world)?.to_text()) } else { Ok(()) };
+        page.and(picture).and(motion).and(written).and(kept).map(|()| Kept { rows: Vec::new(), view })
     }
 }
 
@@ -181,5 +194,5 @@ impl ProbeFile {
 /// Returns whether a name is one that runs give to their files: nothing outside the folder, whatever a list says.
 fn is_result(name: &str) -> bool {
     let probe = name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
-    probe || [SUMMARY, PAGE, USD, STATE].contains(&name)
+    probe || [SUMMARY, PAGE, SVG, USD, STATE].contains(&name)
 }

@@ -37,6 +37,11 @@ impl Recording {
         self.view.page(&self.world, &self.summary)
     }
 
+    /// Returns the motion as an animated SVG.
+    pub fn svg(&self) -> String {
+        self.view.svg(&self.world)
+    }
+
     /// Returns the motion as OpenUSD.
     pub fn usd(&self) -> String {
         self.view.usd(&self.world)

@@ -24,6 +24,7 @@
 
 mod decimator;
 mod page;
+mod svg;
 mod usd;
 
 use crate::error::Error;
@@ -31,6 +32,7 @@ use crate::run::{Summary, World};
 use crate::scene::{Engine, Scene};
 use cpu_time::ProcessTime;
 use decimator::Decimator;
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use std::time::{Duration, Instant};
 
 /// Largest number of frames of a page.
@@ -118,6 +120,11 @@ impl Recorder {
         page::write(world.scene(), summary, self.frames.kept(), &self.probes)
     }
 
+    /// Returns the motion as an animated SVG.
+    pub fn svg(&self, world: &World) -> String {
+        svg::write(world.scene(), self.frames.kept())
+    }
+
     /// Returns the motion as OpenUSD.
     pub fn usd(&self, world: &World) -> String {
         usd::write(world.scene(), self.frames.kept())
@@ -167,6 +174,48 @@ impl Frame {
             }
         }
         Ok(Frame { time: world.time(), numbers })
+    }
+}
+
+impl Frame {
+    /// Returns where the numbers of the pieces of each cable begin, and where those of the bodies do.
+    fn places(&self, cables: usize) -> (Vec<Vec<usize>>, usize) {
+        let (mut pieces, mut at) = (vec![Vec::new(); cables], 1);
+        for _ in 0..self.numbers[0] as usize {
+            pieces[self.numbers[at] as usize].push(at + 1);
+            at += 2 + 9 * self.numbers[at + 1] as usize;
+        }
+        (pieces, at)
+    }
+
+    /// Returns the numbers of the nodes of the piece that begins at a place: arc length, position, slope, tension there and halfway to
+    /// the next.
+    fn nodes(&self, at: usize) -> impl ExactSizeIterator<Item = &[f32]> {
+        self.numbers[at + 1..][..9 * self.numbers[at] as usize].chunks_exact(9)
+    }
+
+    /// Returns the vertices of the cubic Bezier pieces of the elements of the piece that begins at a place.
+    fn vertices(&self, at: usize) -> Vec<[f32; 3]> {
+        let nodes: Vec<&[f32]> = self.nodes(at).collect();
+        let mut points = Vec::with_capacity(3 * nodes.len());
+        for (i, here) in nodes.iter().enumerate() {
+            let beside = |share: f32| [1, 2, 3].map(|k| here[k] + share * here[k + 3]);
+            if i > 0 {
+                points.push(beside(-(here[0] - nodes[i - 1][0]) / 3.0));
+            }
+            points.push(beside(0.0));
+            if let Some(next) = nodes.get(i + 1) {
+                points.push(beside((next[0] - here[0]) / 3.0));
+            }
+        }
+        points
+    }
+
+    /// Returns position and rotation of a body, of which the bodies begin at a place.
+    fn pose(&self, bodies: usize, body: usize) -> Isometry3<f32> {
+        let x = &self.numbers[bodies + 7 * body..][..7];
+        let rotation = UnitQuaternion::new_unchecked(Quaternion::new(x[6], x[3], x[4], x[5]));
+        Isometry3::from_parts(Translation3::new(x[0], x[1], x[2]), rotation)
     }
 }
 

@@ -26,7 +26,7 @@ pub fn write(scene: &Scene, frames: &[Frame]) -> String {
          startTimeCode = 0\n    endTimeCode = {end}\n    timeCodesPerSecond = {RATE}\n)\n\ndef Xform \"World\"\n{{\n"
     );
     let mut names = Vec::new();
-    let (pieces, mut at): (Vec<_>, Vec<_>) = frames.iter().map(|frame| places(frame, scene.parts.len())).unzip();
+    let (pieces, mut at): (Vec<_>, Vec<_>) = frames.iter().map(|frame| frame.places(scene.parts.len())).unzip();
     for (i, cable) in scene.cables[..scene.parts.len()].iter().enumerate() {
         let name = unique(&cable.name, &mut names);
         curve(&mut text, &name, (cable, scene.whole_length(i)), frames.iter().zip(pieces.iter().map(|of| &of[i][..])));
@@ -53,38 +53,13 @@ fn unique(name: &str, names: &mut Vec<String>) -> String {
     plain
 }
 
-/// Returns where the numbers of the pieces of each cable begin in a frame, and where those of the bodies do.
-fn places(frame: &Frame, cables: usize) -> (Vec<Vec<usize>>, usize) {
-    let (mut pieces, mut at) = (vec![Vec::new(); cables], 1);
-    for _ in 0..frame.numbers[0] as usize {
-        pieces[frame.numbers[at] as usize].push(at + 1);
-        at += 2 + 9 * frame.numbers[at + 1] as usize;
-    }
-    (pieces, at)
-}
-
 /// Writes the vertices of the Bezier pieces of a cable, or of a piece of it, in a frame; returns their number.
 fn vertices(text: &mut String, frame: &Frame, at: usize) -> usize {
-    let nodes = frame.numbers[at] as usize;
-    let node = |i: usize| &frame.numbers[at + 1 + 9 * i..at + 10 + 9 * i];
-    let mut count = 0;
-    let mut point = |text: &mut String, p: [f32; 3]| {
+    let points = frame.vertices(at);
+    for p in &points {
         let _ = write!(text, "{}({}, {}, {})", if text.ends_with('[') { "" } else { ", " }, p[0], p[1], p[2]);
-        count += 1;
-    };
-    for i in 0..nodes {
-        let here = node(i);
-        let third = |a: usize, b: usize| (node(b)[0] - node(a)[0]) / 3.0;
-        let beside = |share: f32| [1, 2, 3].map(|k| here[k] + share * here[k + 3]);
-        if i > 0 {
-            point(text, beside(-third(i - 1, i)));
-        }
-        point(text, beside(0.0));
-        if i + 1 < nodes {
-            point(text, beside(third(i, i + 1)));
-        }
     }
-    count
+    points.len()
 }
 
 /// Writes a cable of this length (m) from its frames, each with the places of its pieces.

@@ -33,7 +33,7 @@ fn a_load_with_a_history_gives_its_impulse() {
         let load = format!("[[load]]\nbody = \"b\"\nforce = [4.0, 0.0, 0.0]\nmoment = [0.0, 0.0, 1.0]\n{history}");
         let text = free(body, &load).replace("duration", "dt = 0.0125\nduration");
         let row = Results::of_text("run", &text).done().last("b");
-        assert!((row[8] - 2.0 * share).abs() < 1e-5 && (row[13] - 2.0 * share).abs() < 1e-5, "{history}: {row:?}");
+        assert!((row[8] - 2.0 * share).abs() < 1e-4 && (row[13] - 2.0 * share).abs() < 1e-4, "{history}: {row:?}");
     }
 }
 
