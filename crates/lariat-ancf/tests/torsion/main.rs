@@ -2,4 +2,5 @@
 
 mod motion;
 mod others;
+mod reels;
 mod statics;

@@ -2,8 +2,8 @@
 
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Contact, Drag, Effects, EndSpin, Error, Flow, Integrator, Method, Reel, Section,
-    StepControl, Torsion, Vector3, Warning,
+    At, Cable, CableBuilder, Contact, Drag, Effects, EndSpin, Error, Flow, Integrator, Method, Section, StepControl,
+    Torsion, Vector3, Warning,
 };
 
 fn twisted(turns: f64) -> Torsion {
@@ -28,7 +28,7 @@ fn run(cable: &mut Cable, frames: usize) {
     (0..frames).for_each(|_| cable.step(1.0 / 60.0).unwrap());
 }
 
-/// Other methods, reels, and an equilibrium in a flow are refused by name.
+/// Other methods, and an equilibrium in a flow are refused by name.
 ///
 /// *Source.* The contract.
 #[test]
@@ -39,9 +39,6 @@ fn what_does_not_carry_torsion_is_refused() {
         assert!(matches!(&error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("discrete-gradient"), "{error}");
     }
-    let mut cable = clamped(Some(twisted(1.0))).build().unwrap();
-    let error = cable.add_reel(At::Start, Reel::default()).unwrap_err();
-    assert!(error.to_string().contains("torsion"), "{error}");
     let drag =
         Drag { diameter: Some(0.01), ..Drag::new(1.2, 1.2, 0.01, Flow { velocity: Vector3::z(), ..Flow::default() }) };
     let effects = Effects { torsion: Some(twisted(1.0)), drag: Some(drag), ..Effects::default() };
