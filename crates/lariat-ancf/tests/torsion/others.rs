@@ -214,3 +214,42 @@ fn a_mesh_too_coarse_for_its_torque_is_told() {
     assert!((ratio / exact - 1.0).abs() < 0.05, "{ratio} {exact}");
     assert_eq!(built(enough), None, "{enough}");
 }
+
+/// The line that is painted along a straight cable turns by an even share of its twist, from the
+/// first clamp on, which a motor turns; of a slack one it comes to the director of the last clamp.
+/// Beside clamps there is none.
+///
+/// *Source.* A uniform twist; the last clamp stands still.
+#[test]
+fn a_painted_line_shows_the_twist() {
+    let straight = |torsion| {
+        slack(torsion)
+            .points([Vector3::zeros(), Vector3::x()])
+            .gravity(Vector3::zeros())
+            .clamp(At::Start)
+            .clamp(At::End)
+    };
+    let angle =
+        |axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>| from.cross(to).dot(axis).atan2(from.dot(to));
+    let line = |cable: &Cable, places: &[f64]| -> Vec<Vector3<f64>> {
+        cable.stripe(places).unwrap().into_iter().map(Option::unwrap).collect()
+    };
+    let mut cable = straight(Some(twisted(0.2))).build().unwrap();
+    let seen = line(&cable, &[0.0, 0.125, 0.3, 1.0]);
+    for (place, direction) in [0.0, 0.125, 0.3, 1.0].into_iter().zip(&seen) {
+        let turned = angle(&Vector3::x(), &seen[0], direction);
+        assert!((turned - 0.2 * std::f64::consts::TAU * place).abs() < 1e-9 && (direction.norm() - 1.0).abs() < 1e-12);
+    }
+    let motor = Torsion { start: EndSpin::Motor { rate: 0.25, from: 0.0, until: 1.0 }, ..twisted(0.2) };
+    cable.set_effects(Effects { torsion: Some(motor), ..Effects::default() }).unwrap();
+    run(&mut cable, 60);
+    let end = line(&cable, &[0.0, 1.0]);
+    assert!((angle(&Vector3::x(), &seen[0], &end[0]) - 0.5 * std::f64::consts::PI).abs() < 1e-9);
+    assert!((end[1] - seen[3]).norm() < 1e-9, "the last clamp stands still");
+    let mut cable = clamped(Some(twisted(0.2))).build().unwrap();
+    let before = line(&cable, &[cable.length()])[0];
+    run(&mut cable, 60);
+    assert!((line(&cable, &[cable.length()])[0] - before).norm() < 1e-9, "the last clamp stands still");
+    let free = slack(Some(twisted(0.2))).clamp(At::Start).build().unwrap();
+    assert_eq!(free.stripe(&[0.0, 0.5]).unwrap(), [None, None]);
+}
