@@ -90,6 +90,16 @@ impl Cable {
         self.snapshot.state.memory.torsion.iter().flatten().map(of).fold(0.0, f64::max)
     }
 
+    /// Returns by segment how far in m its twist turns the surface at its end: that of a solid
+    /// round section of the same EA and EI.
+    pub(crate) fn turned_surfaces(&self) -> Vec<f64> {
+        let turned = |(segment, twist): (Segment, SegmentTwist)| {
+            let section = &self.elements()[segment.nodes[0]].section;
+            2.0 * (section.bending_stiffness / section.axial_stiffness).sqrt() * twist.twist
+        };
+        self.segments().into_iter().map(turned).collect()
+    }
+
     /// Returns whether no motor turns from now on.
     pub(crate) fn is_spin_still(&self) -> bool {
         self.model.effects.torsion.is_none_or(|torsion| torsion.is_still(self.time()))
