@@ -4,6 +4,7 @@ mod bridge;
 mod crane;
 mod cut;
 mod grapple;
+mod hook;
 mod lamp;
 mod mooring;
 mod net;
@@ -57,11 +58,12 @@ macro_rules! recipe {
 }
 
 /// All recipes, in the order of the page.
-pub const ALL: [Recipe; 10] = [
+pub const ALL: [Recipe; 11] = [
     recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
     recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200),
+    recipe!(hook, Hook, "1 x 4", 1, "game", 900),
     recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90),
     recipe!(crane, Crane, "1 x 10", 1, "generalised-alpha-0, 1/240 s", 900),
     recipe!(pulley, Pulley, "1 x 42", 2, "game", 45),

@@ -50,6 +50,7 @@ mod saved;
 mod snapshot;
 mod span;
 mod state;
+mod stripe;
 mod strut;
 mod supports;
 mod torsion;

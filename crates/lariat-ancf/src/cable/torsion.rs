@@ -1,7 +1,10 @@
 //! Torque and twist of a cable with torsion.
 
 use super::Cable;
-use crate::effect::torsion::segment::Segment;
+use crate::effect::torsion::curve::Curve;
+use crate::effect::torsion::lengths::Lengths;
+use crate::effect::torsion::segment::{CurveChange, Segment};
+use crate::element::side::Side;
 use crate::error::Error;
 use crate::state::SegmentTwist;
 use crate::system::project_vector;
@@ -87,6 +90,16 @@ impl Cable {
         self.snapshot.state.memory.torsion.iter().flatten().map(of).fold(0.0, f64::max)
     }
 
+    /// Returns by segment how far in m its twist turns the surface at its end: that of a solid
+    /// round section of the same EA and EI.
+    pub(crate) fn turned_surfaces(&self) -> Vec<f64> {
+        let turned = |(segment, twist): (Segment, SegmentTwist)| {
+            let section = &self.elements()[segment.nodes[0]].section;
+            2.0 * (section.bending_stiffness / section.axial_stiffness).sqrt() * twist.twist
+        };
+        self.segments().into_iter().map(turned).collect()
+    }
+
     /// Returns whether no motor turns from now on.
     pub(crate) fn is_spin_still(&self) -> bool {
         self.model.effects.torsion.is_none_or(|torsion| torsion.is_still(self.time()))
@@ -132,6 +145,58 @@ impl Cable {
         slope.try_normalize(0.0).map_or_else(Vector3::zeros, |axis| axis * torque)
     }
 
+    /// Returns the force dU/dl in N of torsion on the length of the element at the eye of an end,
+    /// at rest.
+    pub(crate) fn torsion_on_length(&self, side: Side) -> f64 {
+        let (elements, q) = (self.elements(), self.positions());
+        let e = side.element(elements.len());
+        let Some((segment, twist)) = self.segments().into_iter().find(|(segment, _)| segment.contains(e)) else {
+            return 0.0;
+        };
+        let Some(torsion) = &self.model.effects.torsion else { return 0.0 };
+        let torque = segment.stiffness * twist.twist;
+        let by_length = self.change_of_curve(&segment, side, elements[e].length, q).by_lengths[side as usize];
+        torque * (by_length - 0.5 * torque / torsion.stiffness)
+    }
+
+    /// Returns what the curve adds to the twist of a segment if the element at the eye of an end
+    /// had another length in m before.
+    fn change_of_curve(&self, segment: &Segment, side: Side, before: f64, q: &[f64]) -> CurveChange {
+        let length = self.elements()[side.element(self.elements().len())].length;
+        let mut at_eyes = [None; 2];
+        at_eyes[side as usize] = Some([before, length]);
+        let lengths = Lengths::with_eyes(self.elements(), at_eyes);
+        segment.change(&lengths, q, &vec![0.0; q.len()], &mut Vec::new())
+    }
+
+    /// Advances the twists by a change of the length in m of the element at the eye of an end, at
+    /// rest.
+    pub(super) fn follow_feed(&mut self, side: Side, before: f64) {
+        let e = side.element(self.elements().len());
+        let segments = self.follow_holds();
+        for (number, segment) in segments.iter().enumerate().filter(|(_, segment)| segment.contains(e)) {
+            let angle = self.change_of_curve(segment, side, before, self.positions()).angle;
+            let twists = self.snapshot.state.memory.torsion.iter_mut().flatten();
+            twists.skip(number).take(1).for_each(|twist| twist.twist += angle);
+        }
+    }
+
+    /// Makes the twists those of the present holds, and returns the curves of the segments, to be
+    /// given to [`follow_mesh`](Self::follow_mesh).
+    pub(super) fn twisted_curves(&mut self) -> Vec<Curve> {
+        self.follow_holds();
+        let known = self.snapshot.state.memory.torsion.iter().flatten();
+        known.map(|twist| Curve::between(twist.nodes, self.elements(), self.positions())).collect()
+    }
+
+    /// Advances the twists by a change of the mesh from other curves.
+    pub(super) fn follow_mesh(&mut self, before: &[Curve]) {
+        let changes: Vec<f64> =
+            self.twisted_curves().iter().zip(before).map(|(now, then)| then.change_to(now)).collect();
+        let twists = self.snapshot.state.memory.torsion.iter_mut().flatten();
+        twists.zip(changes).for_each(|(twist, change)| twist.twist += change);
+    }
+
     /// Makes the twists those of the present holds, and returns the segments: what lost a hold has
     /// lost its twist. As built the cable is not twisted, whatever its shape and holds.
     pub(crate) fn follow_holds(&mut self) -> Vec<Segment> {
@@ -152,7 +217,8 @@ impl Cable {
         let (state, mut secant) = (&mut self.snapshot.state, Vec::new());
         let step: Vec<f64> = state.q.iter().zip(before).map(|(now, then)| now - then).collect();
         for (segment, twist) in segments.iter().zip(state.memory.torsion.iter_mut().flatten()) {
-            twist.twist += segment.change(&self.model.elements, before, &step, &mut secant)[0];
+            let lengths = Lengths::fixed(&self.model.elements);
+            twist.twist += segment.change(&lengths, before, &step, &mut secant).angle;
         }
     }
 }

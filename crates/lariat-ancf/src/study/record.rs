@@ -52,7 +52,8 @@ impl Record {
         self
     }
 
-    /// Records 33 points of a cable. Cables are recorded in the same order in each frame.
+    /// Records 33 points of a cable, and how far twist turns its surface. Cables are recorded in
+    /// the same order in each frame.
     pub fn cable(&mut self, cable: &Cable) -> &mut Self {
         let diagnostics = cable.diagnostics();
         let (steps, evaluations) = (diagnostics.steps, diagnostics.element_evaluations());
@@ -69,6 +70,9 @@ impl Record {
         self.indicator = self.indicator.max(cable.mesh_indicator().position);
         for k in 0..RECORDED {
             self.push(cable.position_at(cable.length() * k as f64 / (RECORDED - 1) as f64));
+        }
+        for turned in cable.turned_surfaces() {
+            self.push(Vector3::new(turned, 0.0, 0.0));
         }
         self
     }
@@ -216,5 +220,37 @@ impl CableRecord {
             }
         }
         if least.is_finite() { least } else { 1.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{At, Effects, Section, Torsion};
+
+    /// Runs of straight cables that differ in their twist alone differ by what it turns their
+    /// surface.
+    ///
+    /// *Source.* r Phi; a solid round section has EI/EA = r^2/4.
+    #[test]
+    fn runs_that_differ_in_twist_differ() {
+        let record = |turns: f64| {
+            let torsion = Torsion { initial_twist: turns, ..Torsion::new(0.02) };
+            let cable = Cable::builder()
+                .points([Vector3::zeros(), Vector3::x()])
+                .section(Section::from_stiffness(1e4, 2.5e-3, 0.1).unwrap())
+                .elements(4)
+                .clamp(At::Start)
+                .clamp(At::End)
+                .gravity(Vector3::zeros())
+                .effects(Effects { torsion: Some(torsion), ..Effects::default() })
+                .build()
+                .unwrap();
+            let mut record = Record::default();
+            record.frame(0.0).cable(&cable);
+            record
+        };
+        let apart = record(0.0).distance::<()>(&record(0.25)).unwrap();
+        assert!((apart - 1e-3 * std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{apart}");
     }
 }

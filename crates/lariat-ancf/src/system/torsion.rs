@@ -11,6 +11,7 @@
 //! the stiffness couples all coordinates of a segment; it enters where equations are solved
 //! ([`rank`](crate::effect::torsion::rank)).
 
+use crate::effect::torsion::lengths::Lengths;
 use crate::effect::torsion::rank::RankUpdate;
 use crate::effect::torsion::segment::Segment;
 use crate::linalg::BlockTridiagonal;
@@ -72,7 +73,7 @@ impl StaticTorsion {
     /// Returns the twist that the curve adds from the last shape to another.
     fn change(&self, own: &StaticSegment, model: &Model, q: &[f64]) -> f64 {
         let step: Vec<f64> = q.iter().zip(&self.shape).map(|(now, then)| now - then).collect();
-        own.segment.change(&model.elements, &self.shape, &step, &mut Vec::new())[0]
+        own.segment.change(&Lengths::fixed(&model.elements), &self.shape, &step, &mut Vec::new()).angle
     }
 
     fn follow(&mut self, model: &Model, q: &[f64]) {
@@ -113,7 +114,7 @@ impl StaticTorsion {
             let own = &mut out[segment.range()];
             own.iter_mut().zip(gradient.iter()).for_each(|(out, g)| *out -= scale * torque * g);
             if let Some(matrix) = &mut matrix {
-                segment.add_hessian(&model.elements, |i| q[i], scale * torque, matrix);
+                segment.add_hessian(&Lengths::fixed(&model.elements), |i| q[i], scale * torque, matrix);
             }
             count += segment.count();
         }

@@ -2,4 +2,6 @@
 
 mod motion;
 mod others;
+mod plectoneme;
+mod reels;
 mod statics;

@@ -2,8 +2,8 @@
 
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Contact, Drag, Effects, EndSpin, Error, Flow, Integrator, Method, Reel, Section,
-    StepControl, Torsion, Vector3, Warning,
+    At, Cable, CableBuilder, Contact, Drag, Effects, EndSpin, Error, Flow, Integrator, Method, Section, StepControl,
+    Torsion, Vector3, Warning,
 };
 
 fn twisted(turns: f64) -> Torsion {
@@ -28,7 +28,7 @@ fn run(cable: &mut Cable, frames: usize) {
     (0..frames).for_each(|_| cable.step(1.0 / 60.0).unwrap());
 }
 
-/// Other methods, reels, and an equilibrium in a flow are refused by name.
+/// Other methods, and an equilibrium in a flow are refused by name.
 ///
 /// *Source.* The contract.
 #[test]
@@ -39,9 +39,6 @@ fn what_does_not_carry_torsion_is_refused() {
         assert!(matches!(&error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("discrete-gradient"), "{error}");
     }
-    let mut cable = clamped(Some(twisted(1.0))).build().unwrap();
-    let error = cable.add_reel(At::Start, Reel::default()).unwrap_err();
-    assert!(error.to_string().contains("torsion"), "{error}");
     let drag =
         Drag { diameter: Some(0.01), ..Drag::new(1.2, 1.2, 0.01, Flow { velocity: Vector3::z(), ..Flow::default() }) };
     let effects = Effects { torsion: Some(twisted(1.0)), drag: Some(drag), ..Effects::default() };
@@ -216,4 +213,43 @@ fn a_mesh_too_coarse_for_its_torque_is_told() {
     let exact = torque * clamped(None).build().unwrap().length() / 5.0 / 0.03;
     assert!((ratio / exact - 1.0).abs() < 0.05, "{ratio} {exact}");
     assert_eq!(built(enough), None, "{enough}");
+}
+
+/// The line that is painted along a straight cable turns by an even share of its twist, from the
+/// first clamp on, which a motor turns; of a slack one it comes to the director of the last clamp.
+/// Beside clamps there is none.
+///
+/// *Source.* A uniform twist; the last clamp stands still.
+#[test]
+fn a_painted_line_shows_the_twist() {
+    let straight = |torsion| {
+        slack(torsion)
+            .points([Vector3::zeros(), Vector3::x()])
+            .gravity(Vector3::zeros())
+            .clamp(At::Start)
+            .clamp(At::End)
+    };
+    let angle =
+        |axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>| from.cross(to).dot(axis).atan2(from.dot(to));
+    let line = |cable: &Cable, places: &[f64]| -> Vec<Vector3<f64>> {
+        cable.stripe(places).unwrap().into_iter().map(Option::unwrap).collect()
+    };
+    let mut cable = straight(Some(twisted(0.2))).build().unwrap();
+    let seen = line(&cable, &[0.0, 0.125, 0.3, 1.0]);
+    for (place, direction) in [0.0, 0.125, 0.3, 1.0].into_iter().zip(&seen) {
+        let turned = angle(&Vector3::x(), &seen[0], direction);
+        assert!((turned - 0.2 * std::f64::consts::TAU * place).abs() < 1e-9 && (direction.norm() - 1.0).abs() < 1e-12);
+    }
+    let motor = Torsion { start: EndSpin::Motor { rate: 0.25, from: 0.0, until: 1.0 }, ..twisted(0.2) };
+    cable.set_effects(Effects { torsion: Some(motor), ..Effects::default() }).unwrap();
+    run(&mut cable, 60);
+    let end = line(&cable, &[0.0, 1.0]);
+    assert!((angle(&Vector3::x(), &seen[0], &end[0]) - 0.5 * std::f64::consts::PI).abs() < 1e-9);
+    assert!((end[1] - seen[3]).norm() < 1e-9, "the last clamp stands still");
+    let mut cable = clamped(Some(twisted(0.2))).build().unwrap();
+    let before = line(&cable, &[cable.length()])[0];
+    run(&mut cable, 60);
+    assert!((line(&cable, &[cable.length()])[0] - before).norm() < 1e-9, "the last clamp stands still");
+    let free = slack(Some(twisted(0.2))).clamp(At::Start).build().unwrap();
+    assert_eq!(free.stripe(&[0.0, 0.5]).unwrap(), [None, None]);
 }

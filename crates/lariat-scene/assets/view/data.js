@@ -13,10 +13,13 @@ const numbers = new Float32Array(bytesOf(data.frames));
 
 // A node of a cable: arc length, position, slope, tension there and half-way to the next node.
 const NODE = 9;
+// A stripe at a node: direction across the cable, twist per length.
+const STRIPE = 4;
 // A contact: place on the cable, force on the cable.
 const CONTACT = 6;
 
-// frames[k] = { cables: [first number, nodes, cable] of each part of a cable, bodies: first number, contacts: [first number, contacts] }
+// frames[k] = { cables: [first number, nodes, cable, first number of its stripe] of each part of a cable, bodies: first number,
+// contacts: [first number, contacts] }
 const frames = [];
 for (let k = 0, at = 0; k < times.length; k++) {
   const frame = { cables: [], bodies: 0, contacts: [0, 0] };
@@ -31,6 +34,12 @@ for (let k = 0, at = 0; k < times.length; k++) {
   if (data.contacts) {
     frame.contacts = [at + 1, numbers[at]];
     at += 1 + CONTACT * numbers[at];
+  }
+  if (data.stripes) {
+    for (const part of frame.cables) {
+      part.push(at);
+      at += STRIPE * part[1];
+    }
   }
   frames.push(frame);
 }

@@ -130,6 +130,11 @@ function drawFace(g, flat, fill, edges) {
   g.stroke();
 }
 
+// Pixels at a depth.
+function cableWidth(cable, depth) {
+  return Math.max(data.stripes ? 5 : 2.5, cable.diameter ? (camera.focal * cable.diameter) / depth : 0);
+}
+
 function cableItems(items, frame) {
   frame.cables.forEach(([first, nodes, c]) => {
     const cable = data.cables[c];
@@ -143,7 +148,7 @@ function cableItems(items, frame) {
         const [from, to, share] = x < 0.5 ? [numbers[a + 7], numbers[a + 8], 2 * x] : [numbers[a + 8], numbers[b + 7], 2 * x - 1];
         if (p && q) {
           const [s, t] = [p, q], tension = from + share * (to - from);
-          const width = Math.max(2.5, cable.diameter ? (camera.focal * cable.diameter) / s[2] : 0);
+          const width = cableWidth(cable, s[2]);
           // a hair nearer than the face that it may lie on
           items.push({ depth: 0.5 * (s[2] + t[2]) - 1e-3 * size, draw: (g) => drawPiece(g, s, t, width, colour(tension)) });
         }
@@ -243,6 +248,7 @@ function drawScene(g, width, height, frame, time, names) {
   const items = [];
   bodyItems(items, frame);
   cableItems(items, frame);
+  stripeItems(items, frame);
   items.sort((a, b) => b.depth - a.depth);
   for (const item of items) item.draw(g);
   drawMarks(g, frame, time, names);

@@ -285,7 +285,8 @@ impl SceneEffect for LineLoads {
 
 table! {
     /// Torsion of an isotropic cable: one torque between two clamps that hold the spin; a ball holds none. By GJ, or by a Poisson number
-    /// for a solid round section or a round tube. It needs the integrator `discrete-gradient`, and no reel.
+    /// for a solid round section or a round tube. It needs the integrator `discrete-gradient`. An eye that
+    /// is clamped holds the spin, and the twist of the cable that is out.
     struct TorsionTable("[cable.torsion]") {
         /// Torsional stiffness GJ.
         stiffness: Option<f64> = ("by `poisson`"), Kind::Number(POSITIVE), "N m^2";

@@ -1,7 +1,8 @@
 //! `view.html`: the run as an animated page that opens from disk, without network.
 //!
 //! The page contains its data and its program. Cables are drawn as the cubics of their elements: a frame has position, slope and
-//! tension at each node and the tension in the middle of each element. Bodies have position and rotation, loads and the forces of contacts are arrows. Probes
+//! tension at each node and the tension in the middle of each element; along one with torsion runs a stripe, by which its twist is
+//! seen. Bodies have position and rotation, loads and the forces of contacts are arrows. Probes
 //! are plotted from the rows of their files. Nothing is interpolated in time: every picture is a state of the run.
 //!
 //! # Limits
@@ -41,6 +42,8 @@ pub const FRAMES: usize = 600;
 pub const NUMBERS: usize = 2_000_000;
 /// Largest number of nodes of a cable in a frame.
 pub const NODES: usize = 201;
+/// Numbers of a stripe at a node.
+const STRIPE: usize = 4;
 /// Largest number of rows of a probe in a page.
 pub const ROWS: usize = 2000;
 
@@ -62,7 +65,8 @@ struct Frame {
 impl Recorder {
     /// Returns an empty recorder.
     pub fn new(scene: &Scene) -> Self {
-        let nodes: usize = scene.cables.iter().map(|cable| 2 + 9 * (cable.elements + 1).min(NODES)).sum();
+        let of_node = if is_twisted(scene) { 9 + STRIPE } else { 9 };
+        let nodes: usize = scene.cables.iter().map(|cable| 2 + of_node * (cable.elements + 1).min(NODES)).sum();
         // a few contacts per element, if there are any
         let contacts = if touches(scene) { 6 * nodes / 9 } else { 0 };
         let limit = (NUMBERS / (nodes + contacts + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
@@ -135,6 +139,7 @@ impl Frame {
     fn of(world: &World) -> Result<Self, Error> {
         let mut numbers = Vec::new();
         numbers.push(world.pieces().len() as f32);
+        let mut stripes = Vec::new();
         for (cable, piece) in world.cables().into_iter().zip(world.pieces()) {
             let mut places = cable.node_arc_lengths();
             if places.len() > NODES {
@@ -148,6 +153,12 @@ impl Frame {
                 numbers.push((piece.from + s) as f32);
                 numbers.extend(here.position.iter().chain(here.slope.iter()).map(|&x| x as f32));
                 numbers.extend([here.tension as f32, next.unwrap_or(here).tension as f32]);
+            }
+            if is_twisted(world.scene()) {
+                for (direction, &s) in cable.stripe(&places)?.into_iter().zip(&places) {
+                    let rate = cable.torsion_at(s)?.map_or(0.0, |reading| reading.twist_rate);
+                    stripes.extend(direction.unwrap_or_default().iter().chain(&[rate]).map(|&x| x as f32));
+                }
             }
         }
         for i in 0..world.scene().bodies.len() {
@@ -173,6 +184,7 @@ impl Frame {
                 }
             }
         }
+        numbers.extend(stripes);
         Ok(Frame { time: world.time(), numbers })
     }
 }
@@ -217,6 +229,11 @@ impl Frame {
         let rotation = UnitQuaternion::new_unchecked(Quaternion::new(x[6], x[3], x[4], x[5]));
         Isometry3::from_parts(Translation3::new(x[0], x[1], x[2]), rotation)
     }
+}
+
+/// Returns whether frames have stripes.
+fn is_twisted(scene: &Scene) -> bool {
+    scene.cables.iter().any(|cable| cable.effects.torsion.is_some())
 }
 
 /// Returns whether frames have contacts.

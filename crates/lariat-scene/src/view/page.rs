@@ -2,7 +2,8 @@
 //!
 //! Frames are a sequence of little-endian `f32` in base64: for each frame the number of parts of cables, for each part its cable, the
 //! number of nodes and for each node arc length on the cable, position, slope, tension there and half-way to the next node; then for each body position and quaternion; if cables can touch, the number of contacts,
-//! and for each the place on the cable and the force on it. Times and
+//! and for each the place on the cable and the force on it; if a cable has torsion, for each node of all parts the direction of
+//! its stripe, zero where there is none, and the twist per length. Times and
 //! rows of probes are `f64`.
 
 use super::{Decimator, Frame};
@@ -28,6 +29,7 @@ const SCRIPT: &str = concat!(
     include_str!("../../assets/view/shapes.js"),
     include_str!("../../assets/view/camera.js"),
     include_str!("../../assets/view/arrows.js"),
+    include_str!("../../assets/view/stripe.js"),
     include_str!("../../assets/view/draw.js"),
     include_str!("../../assets/view/plots.js"),
     include_str!("../../assets/view/page.js"),
@@ -52,6 +54,7 @@ pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Decim
         // the first node of the part behind it
         "sheaves": scene.sheaves.iter().map(|s| s.cables[1]).collect::<Vec<_>>(),
         "contacts": super::touches(scene),
+        "stripes": super::is_twisted(scene),
         "junctions": scene.junctions.iter().map(|j| j.points[0]).map(|(part, s)| json!({
             "cable": scene.whole(part), "at": on_page(scene, part, s),
         })).collect::<Vec<_>>(),

@@ -115,6 +115,57 @@ fn frames_have_the_forces_of_contacts() {
     assert!(off < 1e-3 * 0.981, "{carried:?}");
 }
 
+/// A straight twisted cable: along it runs a stripe whose turn from end to end is the twist; a page without torsion has none.
+///
+/// *Source.* A uniform twist.
+#[test]
+fn frames_have_the_stripe_of_a_twisted_cable() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("twisted.toml");
+    let text = r#"
+        duration = 0.1
+        gravity = [0, 0, 0]
+        [[cable]]
+        name = "rope"
+        points = [[0, 0, 0], [1, 0, 0]]
+        axial_stiffness = 1e4
+        bending_stiffness = 0.03
+        mass_per_length = 0.1
+        elements = 4
+        torsion = { stiffness = 0.02, initial_twist = 0.4 }
+        [[attachment]]
+        cable = "rope"
+        at = "start"
+        body = "world"
+        kind = "clamp"
+        [[attachment]]
+        cable = "rope"
+        at = "end"
+        body = "world"
+        kind = "clamp"
+    "#;
+    fs::write(&file, text).unwrap();
+    let scene = Scene::read(&file, &[], Purpose::Run).unwrap();
+    run::run(&scene, &folder.path().join("out"), &mut Options::default()).unwrap();
+    let data = Data::read(&folder.path().join("out"));
+    assert_eq!(data.0["stripes"], true);
+    let (numbers, frames) = (data.frames(), data.times().len());
+    let frame = 1 + 2 + (9 + 4) * 5;
+    assert_eq!(numbers.len(), frame * frames);
+    for numbers in numbers.chunks_exact(frame) {
+        let stripe: Vec<&[f32]> = numbers[frame - 20..].chunks_exact(4).collect();
+        for (i, node) in stripe.iter().enumerate() {
+            assert!((node[3] / (0.4 * std::f32::consts::TAU) - 1.0).abs() < 1e-5, "{node:?}");
+            // about x
+            let cross = stripe[0][1] * node[2] - stripe[0][2] * node[1];
+            let turned = cross.atan2(stripe[0][1] * node[1] + stripe[0][2] * node[2]);
+            let off = turned - 0.1 * std::f32::consts::TAU * i as f32;
+            assert!(node[0].abs() < 1e-6 && off.abs() < 1e-5, "{i}: {node:?}");
+        }
+    }
+    assert_eq!(Data::read(page_of("falling_pendulum", &["duration=0.1"]).path()).0["stripes"], false);
+}
+
 #[test]
 fn statics_have_one_frame() {
     let folder = tempfile::tempdir().unwrap();

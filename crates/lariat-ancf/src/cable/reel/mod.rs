@@ -22,9 +22,9 @@
 //! much there is, and energy and momentum of the cable include it. That takes the discrete
 //! gradient. Implicit methods only. Gravity, axial laws, internal damping, a uniform rest stretch,
 //! drag, buoyancy, forces per length of your own, and line loads on all of the cable act on the
-//! element at the eye, stock at most weighs (less buoyancy); other effects are refused
-//! ([`Error::NotWithReel`]). Contact acts on all other elements: the one at the eye goes into the
-//! device, and touches nothing.
+//! element at the eye, stock at most weighs (less buoyancy); [torsion](crate::Torsion) acts on its
+//! length, and stock is not twisted; other effects are refused ([`Error::NotWithReel`]). Contact
+//! acts on all other elements: the one at the eye goes into the device, and touches nothing.
 //!
 //! # Alternatives considered
 //!
@@ -245,13 +245,17 @@ impl Model {
     /// Renumbers the supports of a cable that had so many nodes, of which `added` more are at a
     /// reel at its start now.
     fn renumber(&mut self, before: usize, added: i64) {
+        let number = self.renumbering(before, added);
+        self.supports.iter_mut().for_each(|(node, _)| *node = number(*node));
+    }
+
+    /// Returns the new numbers of its nodes.
+    fn renumbering(&self, before: usize, added: i64) -> impl Fn(usize) -> usize + use<> {
         let (last, [at_start, at_end]) = (self.nodes() - 1, Side::BOTH.map(|side| self.reels.get(side).is_some()));
-        for (node, _) in &mut self.supports {
-            *node = match *node {
-                0 if at_start => 0,
-                eye if at_end && eye + 1 == before => last,
-                inner => (inner as i64 + added).clamp(0, last as i64) as usize,
-            };
+        move |node| match node {
+            0 if at_start => 0,
+            eye if at_end && eye + 1 == before => last,
+            inner => (inner as i64 + added).clamp(0, last as i64) as usize,
         }
     }
 
@@ -307,7 +311,6 @@ impl Model {
                 self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),
             ),
             ("a rest shape that is curved or in pieces", self.effects.rest_shape.as_ref().is_some_and(curved)),
-            ("torsion", self.effects.torsion.is_some()),
         ];
         match refused.iter().find(|(_, is_there)| *is_there) {
             None => Ok(()),

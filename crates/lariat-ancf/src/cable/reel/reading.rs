@@ -52,7 +52,10 @@ impl Cable {
         let element = &self.elements()[side.element(self.elements().len())];
         let (q, v) = (side.gather(self.positions()), side.gather(self.velocities()));
         let inertia = self.model.inertia(element);
-        let present = || self.system.feed_force(&self.model, feed, self.time(), [&q, &v, &acceleration]).pull;
+        let present = || {
+            let pull = self.system.feed_force(&self.model, feed, self.time(), [&q, &v, &acceleration]).pull;
+            pull - self.torsion_on_length(side)
+        };
         let excess = winding.motor.map_or(0.0, |motor| motor.excess);
         let force = winding.pull.map_or_else(present, |pull| pull - excess);
         let rate = winding.extent[1];

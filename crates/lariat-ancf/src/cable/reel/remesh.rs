@@ -8,7 +8,8 @@
 //!
 //! *Merge* below 0.4 h with the element before: the outer nodes keep position and slope, so the
 //! pull at the eye does not jump; the slope there keeps the rate of its particle, `t' + l'
-//! (r''_new - r''_old)`. Then the velocities take the jump of the momentum,
+//! (r''_new - r''_old)`, as far as no clamp holds that. Then the velocities take the jump of the
+//! momentum,
 //!
 //! ```text
 //! v += M^-1 rho int S^T (v_old - S e' - l' w_new) dy          over all free coordinates
@@ -122,7 +123,9 @@ impl Cable {
             } else {
                 self.merge(turned)?;
             }
+            let curves = self.twisted_curves();
             self.settle(most, self.longest_wave().max(full.length / winding.extent[1].abs().max(PASSING_RATE)))?;
+            self.follow_mesh(&curves);
             self.bound_store(store);
             let change = self.energy().total() - energy;
             if let Some(winding) = &mut self.snapshot.windings[side as usize] {
@@ -145,9 +148,16 @@ impl Cable {
             Side::End => drop(model.elements.splice(inner.., elements.iter().copied())),
             Side::Start => drop(model.elements.splice(..removed, elements.iter().rev().copied())),
         }
-        model.renumber(before, if side == Side::Start { added } else { 0 });
+        let added_first = if side == Side::Start { added } else { 0 };
+        let (number, curves) = (model.renumbering(before, added_first), self.twisted_curves());
+        model.renumber(before, added_first);
         self.rebuild(model)?;
         (self.snapshot.state.q, self.snapshot.state.v) = (q, v);
+        let memory = &mut self.snapshot.state.memory;
+        for node in memory.torsion.iter_mut().flatten().flat_map(|twist| &mut twist.nodes) {
+            *node = number(*node);
+        }
+        self.follow_mesh(&curves);
         let memory = &mut self.snapshot.state.memory;
         memory.acceleration.clear();
         memory.algorithmic.clear();
@@ -236,8 +246,13 @@ impl Cable {
         let Turned { q, v, .. } = &mut turned;
         let bend = |q: &[f64], e: usize, length: f64| combine(q, e, &shape::second_derivative(1.0, length));
         let bent = rate * (bend(q, e, whole.length) - bend(&old_q, e + 1, gone.length));
-        let eye = v.len() - 3;
-        (0..3).for_each(|x| v[eye + x] += bent[x]);
+        let mut at_eye = [0.0; 6];
+        at_eye[3..].copy_from_slice(bent.as_slice());
+        // a clamp holds its direction
+        let held = self.model.support(side.nodes(self.nodes())[1]).filter(|support| !support.attached);
+        held.iter().for_each(|support| support.project(&mut at_eye));
+        let eye = v.len() - 6;
+        (3..6).for_each(|x| v[eye + x] += at_eye[x]);
         // what the new velocities miss of the old momentum
         let inertia = self.model.inertia(&kept);
         let mut missed = vec![0.0; v.len()];

@@ -10,7 +10,8 @@ impl Cable {
     pub(crate) fn pull_at_rest(&self, side: Side) -> f64 {
         let Some(feed) = self.system.feeds.at_side(side) else { return 0.0 };
         let q = side.gather(self.positions());
-        self.system.feed_force(&self.model, feed, self.time(), [&q, &[0.0; 12], &[0.0; 12]]).pull
+        let pull = self.system.feed_force(&self.model, feed, self.time(), [&q, &[0.0; 12], &[0.0; 12]]).pull;
+        pull - self.torsion_on_length(side)
     }
 
     /// Returns the tangent at the eye of an end, towards the eye.
@@ -28,7 +29,8 @@ impl Cable {
         let parts = (length.abs() / (PASSING * self.model.reels.least_length())).ceil().max(1.0);
         for _ in 0..parts as usize {
             let e = side.element(self.elements().len());
-            let own = self.elements()[e].length + length / parts;
+            let before = self.elements()[e].length;
+            let own = before + length / parts;
             let Some(winding) = self.snapshot.windings[side as usize].as_mut().filter(|_| own > 0.0) else {
                 return Ok(false);
             };
@@ -41,6 +43,7 @@ impl Cable {
                 self.system.loads.locate(&self.model);
                 self.system.potentials.locate(&self.model);
             }
+            self.follow_feed(side, before);
             self.sync_reel();
             self.remesh_reel()?;
         }

@@ -15,7 +15,14 @@
 //!
 //! ```text
 //! D det = e_x.Dx + e_m.Dmu + e_y.Dy        e_x = mu cross y + Dmu cross Dy/12 of the means, and cyclic
-//! D Phi = sum c.D q                         exactly
+//! D Phi = sum c.D q + c_l D l               exactly
+//! ```
+//!
+//! Where material runs through the element its length l changes: the middle slope does it by both,
+//!
+//! ```text
+//! D m = 3/2 [D(r_j - r_i) (1/l)_m + (r_j - r_i)_m D(1/l)] - (D t_i + D t_j)/4
+//! c_l = -3/2 c_m.(r_j - r_i)_m/(l0 l1)
 //! ```
 //!
 //! The Hessian is the symmetric part of the Jacobian of the gradient: what is left is the holonomy
@@ -44,16 +51,23 @@ pub(super) const COORDINATES: usize = 12;
 /// the diagonal.
 pub(super) type Blocks = [[Matrix3<f64>; 4]; 4];
 
-/// Returns the slopes at the first node, in the middle, and at the second node.
-fn slopes(q: &[f64], length: f64) -> [Vector3<f64>; 3] {
+/// Returns the slopes at the first node, in the middle, and at the second node; `scale` is 3/2 over
+/// the length.
+fn slopes(q: &[f64], scale: f64) -> [Vector3<f64>; 3] {
     let at = |k: usize| Vector3::new(q[3 * k], q[3 * k + 1], q[3 * k + 2]);
     let (first, last) = (at(1), at(3));
-    [first, (at(2) - at(0)) * (1.5 / length) - (first + last) * 0.25, last]
+    [first, (at(2) - at(0)) * scale - (first + last) * 0.25, last]
 }
 
-/// Writes the covector on the coordinates of covectors on the three slopes.
-fn write([x, m, y]: &[Vector3<f64>; 3], length: f64, out: &mut [f64]) {
-    let (along, quarter) = (m * (1.5 / length), m * 0.25);
+/// Returns their directions at coordinates `q`.
+pub(super) fn directions(q: &[f64], length: f64) -> [Vector3<f64>; 3] {
+    slopes(q, 1.5 / length).map(|slope| Direction::of(slope).at)
+}
+
+/// Writes the covector on the coordinates of covectors on the three slopes; `scale` is 3/2 over the
+/// length.
+fn write([x, m, y]: &[Vector3<f64>; 3], scale: f64, out: &mut [f64]) {
+    let (along, quarter) = (m * scale, m * 0.25);
     for (part, value) in out.chunks_exact_mut(3).zip([-along, x - quarter, along, y - quarter]) {
         part.copy_from_slice(value.as_slice());
     }
@@ -61,10 +75,10 @@ fn write([x, m, y]: &[Vector3<f64>; 3], length: f64, out: &mut [f64]) {
 
 /// Writes the gradient of Phi at coordinates `q` (r, t of two nodes) to `out`.
 pub(super) fn twist_gradient(q: &[f64], length: f64, out: &mut [f64]) {
-    let directions = slopes(q, length).map(Direction::of);
+    let directions = slopes(q, 1.5 / length).map(Direction::of);
     let on_directions = covectors(&directions);
     let on_slopes = core::array::from_fn(|k| directions[k].pull(&on_directions[k]));
-    write(&on_slopes, length, out);
+    write(&on_slopes, 1.5 / length, out);
 }
 
 /// Returns the derivatives of Phi by the three directions.
@@ -76,7 +90,7 @@ fn covectors(directions: &[Direction; 3]) -> [Vector3<f64>; 3] {
 
 /// Returns the Hessian of Phi at coordinates `q` times a factor.
 pub(super) fn twist_hessian(q: &[f64], length: f64, factor: f64) -> Blocks {
-    let directions = slopes(q, length).map(Direction::of);
+    let directions = slopes(q, 1.5 / length).map(Direction::of);
     let [x, m, y] = directions.map(|direction| direction.at);
     let v = covectors(&directions);
     let t = directions.map(|direction| direction.jacobian());
@@ -113,13 +127,21 @@ pub(super) fn twist_hessian(q: &[f64], length: f64, factor: f64) -> Blocks {
 pub(super) struct TwistChange {
     /// D Phi.
     pub angle: f64,
+    /// c_l.
+    pub by_length: f64,
     /// Number of pairs that slip.
     pub slips: u64,
 }
 
-/// Returns D Phi from coordinates `q` over `step`, and writes the secant c to `secant`.
-pub(super) fn twist_change(q: &[f64], step: &[f64], length: f64, secant: &mut [f64]) -> TwistChange {
-    let (start, change_of) = (slopes(q, length), slopes(step, length));
+/// Returns D Phi from coordinates `q` over `step`, and writes the secant c to `secant`; `lengths`
+/// are those at both ends of the step.
+pub(super) fn twist_change(q: &[f64], step: &[f64], lengths: [f64; 2], secant: &mut [f64]) -> TwistChange {
+    let [first, last] = lengths.map(|length| 1.5 / length);
+    let scale = 0.5 * (first + last);
+    let chord = |x: &[f64]| Vector3::new(x[6] - x[0], x[7] - x[1], x[8] - x[2]);
+    let mean_chord = chord(q) + chord(step) * 0.5;
+    let (start, mut change_of) = (slopes(q, first), slopes(step, scale));
+    change_of[1] += mean_chord * (last - first);
     let [x, m, y] = core::array::from_fn(|k| DirectionStep::of(start[k], &change_of[k]));
     let before = change([&x.start, &x.end], [&m.start, &m.end]);
     let behind = change([&m.start, &m.end], [&y.start, &y.end]);
@@ -133,10 +155,11 @@ pub(super) fn twist_change(q: &[f64], step: &[f64], length: f64, secant: &mut [f
         m.pull(&(before.secant + behind.secant - em / 6.0)),
         y.pull(&(behind.secant - ey / 6.0)),
     ];
-    write(&on_slopes, length, secant);
+    write(&on_slopes, scale, secant);
     let det = ex.dot(&dx) + em.dot(&dm) + ey.dot(&dy);
     TwistChange {
         angle: before.angle + behind.angle - det / 6.0,
+        by_length: on_slopes[1].dot(&mean_chord) * (-2.0 / 3.0 * first * last),
         slips: u64::from(before.slips) + u64::from(behind.slips),
     }
 }

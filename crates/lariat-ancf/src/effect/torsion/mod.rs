@@ -13,11 +13,18 @@
 //! exact increments; the state is one number per segment. The force on the coordinates is -M
 //! dPhi/dq, the torque on the first hold +M t and on the last -M t.
 //!
+//! *Where material runs through an end* that holds the spin (a reel, a sheave, a drum), what comes
+//! out is not twisted and what goes in is turned back: the eye holds the spin of whichever section
+//! is at it, so Phi is that of the cable that is out, and stays while M = GJ Phi/L falls with its
+//! length L. Such an eye takes the force dU/dL = -M^2/(2 GJ), beside M dPhi/dl of the curve.
+//!
 //! | file | what it holds |
 //! |---|---|
 //! | `direction` | directions of slopes, regularised |
 //! | `pair` | twist between two directions |
 //! | `element` | twist of an element: gradient, Hessian, exact change |
+//! | `lengths` | lengths of elements over a step |
+//! | `curve` | what a change of the mesh does to the twist |
 //! | `segment` | segments of a cable, their torques, and what the state holds of them |
 //! | `rank` | the solution with K g g^T added to the matrix |
 //!
@@ -42,8 +49,10 @@
 //! per node: constraints, or a mass matrix that is not constant. Twist of the nodal tangents
 //! (discrete elastic rods): order 2.
 
+pub(crate) mod curve;
 mod direction;
 mod element;
+pub(crate) mod lengths;
 mod pair;
 pub(crate) mod rank;
 pub(crate) mod segment;

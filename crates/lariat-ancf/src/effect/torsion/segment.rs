@@ -4,7 +4,10 @@
 //!
 //! ```text
 //! K = 1/sum(l_e/GJ)        Phi1 = Phi0 + sum_e D Phi_e + D theta_last - D theta_first
+//! D(K Phi^2/2) = K_m Phi_m D Phi + (Phi0^2 + Phi1^2)/4 D K        D K = -GJ D L/(L0 L1)
 //! ```
+//!
+//! The second line is exact where the length L of the segment changes, too.
 //!
 //! # Validity
 //!
@@ -13,9 +16,22 @@
 
 use super::Torsion;
 use super::element::{self, COORDINATES, TwistChange, twist_change, twist_hessian};
+use super::lengths::Lengths;
 use crate::linalg::BlockTridiagonal;
 use crate::section::Element;
 use crate::state::SegmentTwist;
+
+/// What the curve of a segment adds to its twist over a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct CurveChange {
+    /// Twist in rad.
+    pub angle: f64,
+    /// Number of pairs that slip.
+    pub slips: u64,
+    /// Its secants in rad/m by the lengths of the elements at eyes, of the start and of the end of
+    /// the cable.
+    pub by_lengths: [f64; 2],
+}
 
 /// The elements between two neighbouring holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +54,11 @@ impl Segment {
         self.nodes[0]..self.nodes[1]
     }
 
+    /// Returns whether an element is one of them.
+    pub fn contains(&self, e: usize) -> bool {
+        self.elements().contains(&e)
+    }
+
     /// Returns the number of elements.
     pub fn count(&self) -> u64 {
         self.elements().len() as u64
@@ -57,18 +78,29 @@ impl Segment {
         }
     }
 
-    /// Returns the twist that the curve adds over a change of the coordinates, and sets the secant.
-    pub fn change(&self, elements: &[Element], q: &[f64], step: &[f64], secant: &mut Vec<f64>) -> [f64; 2] {
+    /// Returns the twist that the curve adds over a change of the coordinates and of the lengths,
+    /// and sets the secant.
+    pub fn change(&self, lengths: &Lengths<'_>, q: &[f64], step: &[f64], secant: &mut Vec<f64>) -> CurveChange {
         secant.clear();
         secant.resize(self.range().len(), 0.0);
-        let (mut sum, mut slipped, mut part) = (0.0, 0, [0.0; COORDINATES]);
+        let (mut sum, mut part) = (CurveChange::default(), [0.0; COORDINATES]);
         self.for_each(|e, at, own| {
-            let TwistChange { angle, slips } = twist_change(&q[at.clone()], &step[at], elements[e].length, &mut part);
-            sum += angle;
-            slipped += slips;
+            let change: TwistChange = twist_change(&q[at.clone()], &step[at], lengths.of(e), &mut part);
+            sum.angle += change.angle;
+            sum.slips += change.slips;
+            if let Some(side) = lengths.side(e) {
+                sum.by_lengths[side] = change.by_length;
+            }
             secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
         });
-        [sum, slipped as f64]
+        sum
+    }
+
+    /// Returns K at both ends of a step.
+    pub fn stiffnesses(&self, torsion: Option<&Torsion>, lengths: &Lengths<'_>) -> [f64; 2] {
+        let flows = self.elements().any(|e| lengths.side(e).is_some());
+        let Some(torsion) = torsion.filter(|_| flows) else { return [self.stiffness; 2] };
+        [0, 1].map(|end| torsion.stiffness / self.elements().map(|e| lengths.of(e)[end]).sum::<f64>())
     }
 
     /// Sets the gradient of the twist of the curve.
@@ -85,7 +117,7 @@ impl Segment {
     /// Adds a factor times the Hessian of the twist at coordinates `q(i)` to a matrix.
     pub fn add_hessian(
         &self,
-        elements: &[Element],
+        lengths: &Lengths<'_>,
         q: impl Fn(usize) -> f64,
         factor: f64,
         matrix: &mut BlockTridiagonal,
@@ -96,7 +128,7 @@ impl Segment {
         let mut local = [0.0; COORDINATES];
         self.for_each(|e, at, _| {
             local.iter_mut().zip(at).for_each(|(out, i)| *out = q(i));
-            let blocks = twist_hessian(&local, elements[e].length, factor);
+            let blocks = twist_hessian(&local, lengths.mean(e), factor);
             for column in 0..2 {
                 for row in 0..2 {
                     for x in 0..3 {

@@ -1,7 +1,12 @@
 //! The twist of elements against identities and differences.
 
+use super::curve::Curve;
 use super::element::{COORDINATES, twist_change, twist_gradient, twist_hessian};
+use super::lengths::Lengths;
 use super::pair::change;
+use super::segment::Segment;
+use crate::element::shape;
+use crate::section::Element;
 use nalgebra::{UnitQuaternion, Vector3};
 
 const LENGTH: f64 = 0.7;
@@ -57,10 +62,16 @@ fn the_secant_is_exact() {
             let (q, step) = (element(size, &mut next), element(size, &mut next));
             let step: Vec<f64> = step.iter().zip(&q).map(|(a, b)| a - b).collect();
             let mut c = [0.0; COORDINATES];
-            let found = twist_change(&q, &step, LENGTH, &mut c);
+            let found = twist_change(&q, &step, [LENGTH; 2], &mut c);
             slips += found.slips;
             let scale: f64 = c.iter().zip(&step).map(|(c, d)| (c * d).abs()).sum();
             assert!((dot(&c, &step) - found.angle).abs() <= 1e-14 * scale.max(1.0), "{size}: {found:?}");
+            // the length changes, too
+            let last = LENGTH * (1.0 + 0.5 * next());
+            let found = twist_change(&q, &step, [LENGTH, last], &mut c);
+            let along = dot(&c, &step) + found.by_length * (last - LENGTH);
+            let scale: f64 = c.iter().zip(&step).map(|(c, d)| (c * d).abs()).sum::<f64>() + found.by_length.abs();
+            assert!((along - found.angle).abs() <= 1e-14 * scale.max(1.0), "{size}: {found:?}");
         }
     }
     assert!(slips > 100, "no step that turns too far was tried");
@@ -78,7 +89,7 @@ fn gradient_and_hessian_are_derivatives_of_the_change() {
             let (q, along): (_, [f64; COORDINATES]) = (element(size, &mut next), core::array::from_fn(|_| next()));
             let by = |h: f64| {
                 let step: Vec<f64> = along.iter().map(|x| h * x).collect();
-                twist_change(&q, &step, LENGTH, &mut [0.0; COORDINATES]).angle
+                twist_change(&q, &step, [LENGTH; 2], &mut [0.0; COORDINATES]).angle
             };
             let mut g = [0.0; COORDINATES];
             twist_gradient(&q, LENGTH, &mut g);
@@ -101,6 +112,44 @@ fn gradient_and_hessian_are_derivatives_of_the_change() {
     }
 }
 
+/// A change of the mesh that leaves the curve adds to the twist what the elements see of it more,
+/// a high power of their length; one that moves nodes adds what the exact changes say.
+///
+/// *Source.* De Casteljau's halves of a cubic; exact changes of the same elements.
+#[test]
+fn a_change_of_the_mesh_adds_what_the_curve_does() {
+    let mut next = random(19);
+    let section = crate::Section::from_stiffness(1e3, 1.0, 0.1).unwrap();
+    let mut seen = Vec::new();
+    // slopes stay where their directions are not regularised
+    for size in [0.2, 0.1, 0.05] {
+        let mut worst = 0.0f64;
+        for _ in 0..200 {
+            let q = element(size, &mut next);
+            let whole = Curve { lengths: vec![LENGTH], q: q.to_vec() };
+            let [r, t] = [shape::position(0.5, LENGTH), shape::slope(0.5, LENGTH)];
+            let at = |s: [f64; 4]| (0..3).map(move |x| (0..4).map(|k| s[k] * q[3 * k + x]).sum::<f64>());
+            let middle = at(r).chain(at(t));
+            let nodes = q[..6].iter().copied().chain(middle).chain(q[6..].iter().copied()).collect();
+            let halves = Curve { lengths: vec![0.5 * LENGTH; 2], q: nodes };
+            worst = worst.max(whole.change_to(&halves).abs());
+            // the slopes at both ends stay
+            let mut moved = halves.clone();
+            (6..12).for_each(|i| moved.q[i] += 0.2 * size * next());
+            let elements = [0, 1].map(|_| Element { length: 0.5 * LENGTH, section });
+            let step: Vec<f64> = moved.q.iter().zip(&halves.q).map(|(a, b)| a - b).collect();
+            let segment = Segment { nodes: [0, 2], stiffness: 1.0 };
+            let found = segment.change(&Lengths::fixed(&elements), &halves.q, &step, &mut Vec::new());
+            let by_curve = halves.change_to(&moved);
+            assert!((found.angle - by_curve).abs() < 1e-13, "{size}: {found:?}, {by_curve}");
+        }
+        println!("{size}: {worst:.2e} rad");
+        seen.push(worst);
+    }
+    // three slopes and three curvatures of them: of third order in the size, odd in all
+    assert!(seen[2] < 0.3 * seen[1] && seen[1] < 0.3 * seen[0] && seen[2] < 1e-3, "{seen:?}");
+}
+
 /// A rigid rotation of the element changes its twist by what its ends turn about themselves: sum q
 /// cross g = x - y. Turning everything changes no twist, and reversing the element keeps it.
 ///
@@ -117,7 +166,7 @@ fn twist_is_frame_indifferent_and_has_no_direction() {
         assert!((moment - ends).norm() < 1e-13, "{moment} {ends}");
         let angle = |q: &[f64], to: &[f64]| {
             let step: Vec<f64> = to.iter().zip(q).map(|(a, b)| a - b).collect();
-            twist_change(q, &step, LENGTH, &mut [0.0; COORDINATES]).angle
+            twist_change(q, &step, [LENGTH; 2], &mut [0.0; COORDINATES]).angle
         };
         let turn = UnitQuaternion::from_scaled_axis(Vector3::new(next(), next(), next()) * 3.0);
         let turned = |q: &[f64]| q.chunks(3).flat_map(|x| <[f64; 3]>::from(turn * vector(x))).collect::<Vec<_>>();
@@ -152,7 +201,7 @@ fn twist_does_not_drift() {
     for _ in 0..1000 {
         let to = element(0.35, &mut next);
         let step: Vec<f64> = to.iter().zip(&q).map(|(a, b)| a - b).collect();
-        let found = twist_change(&q, &step, LENGTH, &mut [0.0; COORDINATES]);
+        let found = twist_change(&q, &step, [LENGTH; 2], &mut [0.0; COORDINATES]);
         assert_eq!(found.slips, 0);
         twist += found.angle;
         first = carry(first, vector(&q[3..]), vector(&to[3..]));

@@ -20,7 +20,17 @@
 //! ```
 //!
 //! of which the second part couples all coordinates of a segment:
-//! [`rank`](crate::effect::torsion::rank). What moves ends between two host steps (Rapier turned a
+//! [`rank`](crate::effect::torsion::rank).
+//!
+//! At an eye the length l of an element is a coordinate, too: D Phi has a part c_l D l, and K falls
+//! as cable is paid out. With K_m, the mean of both ends of the step, in place of K above and O Phi
+//! such that K O Phi^2 stays, the force on the length is, to rounding,
+//!
+//! ```text
+//! dU/dl = M^ c_l - K0 K1/GJ (Phi0^2 + Phi1^2)/4
+//! ```
+//!
+//! What moves ends between two host steps (Rapier turned a
 //! body, a user a support) changes the twist by the same increments.
 //!
 //! # Validity
@@ -32,6 +42,8 @@ use super::twists::{End, SIGNS, SegmentStep, Torsions, turned_since};
 use super::{IslandStep, StepBuffers};
 use crate::cable::Cable;
 use crate::effect::EndSpin;
+use crate::effect::torsion::lengths::Lengths;
+use crate::effect::torsion::segment::CurveChange;
 use crate::error::StepFailure;
 use crate::island::hold::vector;
 use crate::one_leg::OneLeg;
@@ -57,7 +69,7 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
             let memory = &cable.snapshot.state.memory;
             let twist = memory.torsion.as_ref().and_then(|twists| twists.get(own.number)).copied().unwrap_or_default();
             own.start = twist.twist;
-            own.before = if memory.differences.is_empty() { 0.0 } else { cable.step_buffers.kept * twist.change };
+            own.remembered = if memory.differences.is_empty() { 0.0 } else { cable.step_buffers.kept * twist.change };
         }
     }
 
@@ -82,7 +94,8 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
             let (q, change, h, leg) = (&snapshot.state.q, &step_buffers.change, step_buffers.h, step_buffers.leg);
             let mean = |i: usize| q[i] + 0.5 * change[i];
             let factor = 0.5 * leg.b * h * h * own.torque;
-            own.segment.add_hessian(&model.elements, mean, factor, &mut system.step.matrix);
+            let lengths = Lengths::with_eyes(&model.elements, system.feeds.lengths_over(snapshot.state.time, h));
+            own.segment.add_hessian(&lengths, mean, factor, &mut system.step.matrix);
         }
     }
 
@@ -90,12 +103,12 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
         for own in &island.buffers.torsions.list {
             let cable = &mut *island.cables[own.cable];
             let (leg, h) = (cable.step_buffers.leg, cable.step_buffers.h);
-            let (stiffness, second) = (own.segment.stiffness, own.change - own.before);
-            let lost = own.damping * own.change * own.change / h;
+            let (stiffness, second) = (own.mean_stiffness(), own.change - own.before);
+            let lost = own.damping * stiffness * own.change * own.change / h;
             cable.system.meter.work_of_step.torsion -= lost;
             balance.to(Account::Elements).loss += lost;
             balance.numerical += 0.5 * leg.a * stiffness * second * second;
-            balance.held += 0.5 * stiffness * own.start * own.start;
+            balance.held += 0.5 * own.stiffness[0] * own.start * own.start;
             let driven = own.ends[1].driven - own.ends[0].driven;
             balance.to(Account::Supports).work += own.torque * driven;
         }
@@ -109,7 +122,9 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
             else {
                 continue;
             };
-            (twist.twist, twist.change) = (own.start + own.change, own.change);
+            // as it counts at the end of the step
+            let kept = own.change * (own.mean_stiffness() / own.stiffness[1]).sqrt();
+            (twist.twist, twist.change) = (own.start + own.change, kept);
         }
         island.note_attitudes();
     }
@@ -123,7 +138,8 @@ impl IslandStep<'_, '_> {
         let StepBuffers { torsions: Torsions { list, found, .. }, bodies, cables: buffers, .. } = &mut *self.buffers;
         let mut count = 0;
         for (c, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.model.effects.torsion.is_some()) {
-            let Cable { model, snapshot, step_buffers, .. } = &mut **cable;
+            let Cable { model, snapshot, step_buffers, system, .. } = &mut **cable;
+            system.feeds.list.iter_mut().for_each(|feed| feed.of_twist = 0.0);
             model.find_segments(found);
             let state = &mut snapshot.state;
             model.follow_holds(found, &mut state.memory.torsion);
@@ -135,7 +151,7 @@ impl IslandStep<'_, '_> {
                 let own = &mut list[count];
                 count += 1;
                 (own.cable, own.number, own.segment) = (c, number, *segment);
-                own.damping = segment.stiffness * model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
+                own.damping = model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
                 own.ends = segment.nodes.map(|node| End::of(&buffers[c].holds, node));
                 let Some(twist) = state.memory.torsion.as_mut().and_then(|all| all.get_mut(number)) else { continue };
                 let moved = &mut own.secant;
@@ -145,7 +161,7 @@ impl IslandStep<'_, '_> {
                     let step = &mut step_buffers.change;
                     step.clear();
                     step.extend(state.q.iter().zip(before).map(|(now, then)| now - then));
-                    twist.twist += segment.change(&model.elements, before, step, moved)[0];
+                    twist.twist += segment.change(&Lengths::fixed(&model.elements), before, step, moved).angle;
                 }
                 for (side, end) in own.ends.iter().enumerate() {
                     let (Some(body), Some(then)) = (end.body, twist.attitudes[side]) else { continue };
@@ -175,15 +191,20 @@ impl IslandStep<'_, '_> {
         let StepBuffers { torsions, bodies, cables: buffers, .. } = &mut *self.buffers;
         for own in &mut torsions.list {
             let cable = &mut *self.cables[own.cable];
-            let Cable { model, snapshot, step_buffers: b, diagnostics, .. } = cable;
-            let [change, slips] = own.segment.change(&model.elements, &snapshot.state.q, &b.change, &mut own.secant);
+            let Cable { model, snapshot, step_buffers: b, system, diagnostics, .. } = cable;
+            let (torsion, at_eyes) =
+                (model.effects.torsion.as_ref(), system.feeds.lengths_over(snapshot.state.time, b.h));
+            let lengths = Lengths::with_eyes(&model.elements, at_eyes);
+            let CurveChange { angle, slips, by_lengths } =
+                own.segment.change(&lengths, &snapshot.state.q, &b.change, &mut own.secant);
             diagnostics.effects.torsion += own.segment.count();
-            own.slips = slips as u64;
-            own.change = change;
+            (own.slips, own.change) = (slips, angle);
+            own.stiffness = own.segment.stiffnesses(torsion, &lengths);
+            let stiffness = own.mean_stiffness();
+            own.before = own.remembered * (own.stiffness[0] / stiffness).sqrt();
             for (side, node) in own.segment.nodes.into_iter().enumerate() {
                 let time = snapshot.state.time;
-                let spin =
-                    model.effects.torsion.as_ref().map_or(EndSpin::Held, |torsion| model.end_spin(torsion, node));
+                let spin = torsion.map_or(EndSpin::Held, |torsion| model.end_spin(torsion, node));
                 let end = &mut own.ends[side];
                 end.driven = spin.angle(time + b.h) - spin.angle(time);
                 end.angle = end.driven;
@@ -193,8 +214,12 @@ impl IslandStep<'_, '_> {
                 }
                 own.change += SIGNS[side] * end.angle;
             }
-            own.torque = own.segment.stiffness * (own.start + b.leg.b * own.change - b.leg.a * own.before)
-                + own.damping * own.change / b.h;
+            own.torque = stiffness * (own.start + b.leg.b * own.change - b.leg.a * own.before)
+                + own.damping * stiffness * own.change / b.h;
+            let of_dilution = torsion.map_or(0.0, |torsion| own.force_of_dilution(torsion.stiffness));
+            for feed in system.feeds.list.iter_mut().filter(|feed| own.segment.contains(feed.element(model))) {
+                feed.of_twist = own.torque * by_lengths[feed.side as usize] + of_dilution;
+            }
             for (side, end) in own.ends.iter().enumerate().filter(|(_, end)| end.body.is_some()) {
                 // of two segments at one body, each adds its own
                 let twist = &mut buffers[own.cable].holds[end.hold].twists[side];
@@ -248,7 +273,10 @@ impl IslandStep<'_, '_> {
             });
         }
         let Torsions { list, columns, rank, .. } = &mut torsions;
-        let stiffness = |s: usize| leg.b * h * (leg.b * h * list[s].segment.stiffness + list[s].damping);
+        let stiffness = |s: usize| {
+            let stiffness = list[s].mean_stiffness();
+            leg.b * h * (leg.b * h * stiffness + list[s].damping * stiffness)
+        };
         let product = |s: usize, t: usize| list[s].along(&columns[t].0[list[s].cable], &columns[t].1);
         let outcome = if count > 0 { rank.factor(count, stiffness, product) } else { Ok(()) };
         self.buffers.torsions = torsions;

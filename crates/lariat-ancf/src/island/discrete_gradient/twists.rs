@@ -32,10 +32,13 @@ pub(super) struct SegmentStep {
     /// Its number among those of the cable.
     pub number: usize,
     pub segment: Segment,
-    /// K tau in N m s.
+    /// K at both ends of the step.
+    pub stiffness: [f64; 2],
+    /// tau in s.
     pub damping: f64,
-    /// Phi0 and O Phi.
+    /// Phi0, and O Phi as remembered and as of this step.
     pub start: f64,
+    pub remembered: f64,
     pub before: f64,
     /// D Phi and M^ of the iterate.
     pub change: f64,
@@ -64,14 +67,16 @@ pub(super) const SIGNS: [f64; 2] = [-1.0, 1.0];
 
 impl SegmentStep {
     pub fn new(segment: Segment) -> Self {
-        let (damping, start, before, change, torque) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let (damping, start, remembered, before, change, torque) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         let ends = [End::default(); 2];
         SegmentStep {
             cable: 0,
             number: 0,
             segment,
+            stiffness: [0.0; 2],
             damping,
             start,
+            remembered,
             before,
             change,
             torque,
@@ -79,6 +84,18 @@ impl SegmentStep {
             secant: Vec::new(),
             ends,
         }
+    }
+
+    /// Returns K_m.
+    pub fn mean_stiffness(&self) -> f64 {
+        0.5 * (self.stiffness[0] + self.stiffness[1])
+    }
+
+    /// Returns dU/dl in N at the elements at eyes, less what the torque does by their secants.
+    pub fn force_of_dilution(&self, stiffness: f64) -> f64 {
+        let [first, last] = self.stiffness;
+        let end = self.start + self.change;
+        -0.25 * first * last / stiffness * (self.start * self.start + end * end)
     }
 
     /// Returns the product of g and increments of the cable and of the bodies.
@@ -134,4 +151,58 @@ pub(super) fn turned_since(then: [f64; 4], body: &BodyStep, hold: &HoldStep, lay
     // the Cayley vector of the rotation is twice its vector part over its scalar part
     let along = turn.imag().dot(&mean) * turn.scalar().signum();
     2.0 * along.atan2(turn.scalar().abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::Torsion;
+    use crate::effect::torsion::lengths::Lengths;
+    use crate::section::{Element, Section};
+
+    const FULL: f64 = 0.7;
+
+    /// The energy of a segment from whose end material runs is done by its torque and by the forces
+    /// on coordinates and length, to rounding and at any step; the force on the length is its
+    /// derivative.
+    ///
+    /// *Source.* Differences of `GJ Phi^2/(2 L)`, with Phi advanced by its exact changes.
+    #[test]
+    fn torque_and_dilution_do_the_change_of_the_energy() {
+        let mut state = 13u64;
+        let mut next = move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        let section = Section::from_stiffness(1e3, 1.0, 0.1).unwrap();
+        let elements = [0, 1, 2].map(|_| Element { length: FULL, section });
+        let torsion = Torsion::new(0.8);
+        let segment = Segment::between(&torsion, &elements, [0, 3]);
+        for size in [1e-5, 0.3, 1.0] {
+            for _ in 0..100 {
+                let node = |e: usize, i: usize| if i == 0 { FULL * e as f64 } else { f64::from(u8::from(i == 3)) };
+                let q: Vec<f64> = (0..24).map(|i| node(i / 6, i % 6) + 0.2 * next()).collect();
+                let step: Vec<f64> = (0..24).map(|_| 0.3 * size * next()).collect();
+                let [first, last] = [0, 2].map(|_| [FULL, FULL * (1.0 + 0.5 * size * next())]);
+                let lengths = Lengths::with_eyes(&elements, [Some(first), Some(last)]);
+                let mut own = SegmentStep::new(segment);
+                let change = segment.change(&lengths, &q, &step, &mut own.secant);
+                (own.stiffness, own.start) = (segment.stiffnesses(Some(&torsion), &lengths), 7.0 * next());
+                own.change = change.angle;
+                let end = own.start + own.change;
+                let energy = |end: usize, twist: f64| {
+                    let length = FULL + first[end] + last[end];
+                    0.5 * 0.8 / length * twist * twist
+                };
+                let torque = own.mean_stiffness() * 0.5 * (own.start + end);
+                let of_dilution = own.force_of_dilution(0.8);
+                let mut work = torque * dot(&own.secant, &step);
+                for (side, [l0, l1]) in [first, last].into_iter().enumerate() {
+                    work += (torque * change.by_lengths[side] + of_dilution) * (l1 - l0);
+                }
+                let made = energy(1, end) - energy(0, own.start);
+                assert!((made - work).abs() < 1e-13 * energy(0, 7.0), "{size}: {made:e} {work:e}");
+            }
+        }
+    }
 }

@@ -54,6 +54,8 @@ pub(crate) struct FeedElement {
     /// Force in N of effects at Gauss points on the length, in the last iterate of the discrete
     /// gradient.
     pub(super) of_points: f64,
+    /// Force in N of torsion on the length, dU/dl, in the last iterate.
+    pub of_twist: f64,
     /// Forces on the length in an iterate of the discrete gradient: of a reel with a motor in the
     /// last one.
     pub(super) on_length: OnLength,
@@ -115,6 +117,7 @@ impl FeedElement {
             beside: None,
             linearised: 0.0,
             of_points: 0.0,
+            of_twist: 0.0,
             on_length: OnLength::default(),
             pull: None,
             source: Source::Outside,
@@ -168,7 +171,7 @@ impl FeedElement {
     }
 
     /// Returns the number of the element.
-    pub(super) fn element(&self, model: &Model) -> usize {
+    pub(crate) fn element(&self, model: &Model) -> usize {
         self.side.element(model.elements.len())
     }
 
@@ -253,6 +256,12 @@ impl Feeds {
     /// Returns whether all stand still.
     pub fn are_still(&self) -> bool {
         self.list.iter().all(|feed| feed.extent.rate == 0.0 && feed.extent.acceleration == 0.0)
+    }
+
+    /// Returns the lengths in m of the elements at eyes at both ends of a step from `time` of
+    /// length `h` (s), of the start and of the end of the cable.
+    pub fn lengths_over(&self, time: f64, h: f64) -> [Option<[f64; 2]>; 2] {
+        Side::BOTH.map(|side| self.at_side(side).map(|feed| feed.over(time, h).1))
     }
 
     /// Makes the equations be set anew, whatever their lengths.

@@ -3,8 +3,8 @@
 //! # Equation
 //!
 //! With B the [force on the length](crate::element::variable_length), less that of
-//! [effects](super::effects), w the weight per length, f the stretch and v the velocity of the
-//! material at the eye r:
+//! [effects](super::effects) and with that of [torsion](crate::effect::torsion), w the weight per
+//! length, f the stretch and v the velocity of the material at the eye r:
 //!
 //! ```text
 //! drum      pull = -B - 1/2 rho l'^2 (f^2 - 1)        power = l' (B + 1/2 rho v.v - w.r)
@@ -135,7 +135,7 @@ impl Equations<'_> {
         let elastic = strain_on_length([begin, end], [l0, l1], of_eye);
         let (element, dead) = (feed.with(model, mean), feed.dead(model));
         let inertial = dispatch!(system.level => element.length_force([middle, velocity, acceleration], &dead));
-        OnLength { force: elastic + inertial - feed.of_points, begin: Some(begin), end }
+        OnLength { force: elastic + inertial - feed.of_points + feed.of_twist, begin: Some(begin), end }
     }
 
     /// Returns what entering material brings in N beside the force on the length, in the mean of a
