@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -111,3 +112,21 @@ def test_what_does_not_fit_is_named() -> None:
     removed.step(0.01)
     with pytest.raises(errors.NoCableError):
         sling.positions  # noqa: B018
+
+
+def test_the_first_warning_of_each_kind_goes_through_warnings() -> None:
+    """Two coarse ropes, of E in GPa: a line for a kind, in the names of Python, and no second one."""
+    world = lariat.World(fidelity="engineering")
+    for x in (0.0, 1.0):
+        section = lariat.Section.round(0.01, 0.1, 1100.0)
+        world.add_cable(lariat.Cable([[x, 0, 0], [x, 0, 1]], section, elements=2, fix="start"))
+    with pytest.warns(errors.ResultWarning) as told:
+        world.step()
+    texts = [str(warning.message) for warning in told]
+    assert sum("Young's modulus" in text for text in texts) == 1, texts
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", errors.ResultWarning)
+        world.step()
+    rope = lariat.Cable([[0, 0, 0], [2, 0, 0]], lariat.Section(1e5, 0.01, 0.1), length=2.5, elements=2, fix="start")
+    rope.step(0.02, steps=20)
+    assert any("`elements=" in text for text in rope.warnings()), rope.warnings()

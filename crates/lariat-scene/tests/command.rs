@@ -103,7 +103,7 @@ fn warnings_go_to_stderr_once_and_change_no_exit_code() {
     assert!(output.status.success() && !printed.contains("warning"), "{printed}");
     let lines: Vec<&str> = told.lines().collect();
     assert!(lines.len() == 2 && lines.iter().all(|line| line.starts_with("warning: ")), "{told}");
-    assert!(lines[0].contains("body \"bob\"") && lines[1].contains("try elements = "), "{told}");
+    assert!(lines[0].contains("body \"bob\"") && lines[1].contains("try `elements = "), "{told}");
     let page = fs::read_to_string(out.join("view.html")).unwrap();
     assert!(page.contains("falls_freely") && page.contains("coarse_mesh"));
 }

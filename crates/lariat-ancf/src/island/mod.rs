@@ -45,6 +45,7 @@ mod discrete_gradient;
 mod dynamics;
 mod energy_balance;
 mod equations;
+mod forces_now;
 mod hold;
 mod impedance;
 mod kinematics;

@@ -20,13 +20,13 @@ use crate::state::State;
 /// Buffers of an island, reused from step to step; nothing in them is state.
 #[derive(Clone, Debug, Default)]
 pub struct Island {
-    layout: Layout,
-    matrices: Matrices,
-    accounts: PinAccounts,
-    vectors: Vectors,
+    pub(super) layout: Layout,
+    pub(super) matrices: Matrices,
+    pub(super) accounts: PinAccounts,
+    pub(super) vectors: Vectors,
     by_discrete_gradient: StepBuffers,
     scratch: Scratch,
-    state: State,
+    pub(super) state: State,
     straight: Straight,
 }
 
@@ -220,7 +220,7 @@ impl Island {
 
 /// Collects the coordinates of cables, then of bodies (position, rotation vector from the present
 /// attitude).
-fn gather(cables: &[&mut Cable], bodies: &[RigidBody], state: &mut State) {
+pub(super) fn gather(cables: &[&mut Cable], bodies: &[RigidBody], state: &mut State) {
     state.q.clear();
     state.v.clear();
     for cable in cables {

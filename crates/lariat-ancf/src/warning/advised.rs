@@ -18,22 +18,21 @@ pub struct AdvisedMesh {
 }
 
 impl fmt::Display for AdvisedMesh {
-    /// As scenes write it.
+    /// As Rust writes it; see [`Interface`](super::Interface).
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let AdvisedMesh { elements, finest_m: Some(finest), at } = self else {
-            return write!(f, "elements = {}", self.elements);
-        };
-        write!(f, "elements = {{ count = {elements}, finest = {}, at = [", significant(*finest))?;
-        for (k, at) in at.iter().enumerate() {
+        write!(f, "elements({})", self.elements)?;
+        let Some(finest) = self.finest_m else { return Ok(()) };
+        write!(f, ".finest({}, [", significant(finest))?;
+        for (k, at) in self.at.iter().enumerate() {
             f.write_str(if k == 0 { "" } else { ", " })?;
             match at {
-                At::Start => write!(f, "\"start\""),
-                At::End => write!(f, "\"end\""),
-                At::ArcLength(s) => write!(f, "{s}"),
-                At::Node(node) => write!(f, "node {node}"),
+                At::Start => write!(f, "At::Start"),
+                At::End => write!(f, "At::End"),
+                At::ArcLength(s) => write!(f, "At::ArcLength({s})"),
+                At::Node(node) => write!(f, "At::Node({node})"),
             }?;
         }
-        write!(f, "] }}")
+        write!(f, "])")
     }
 }
 

@@ -17,6 +17,7 @@
 //! | `balance` | the energy that integration makes or loses |
 //! | `shock` | a velocity that jumps |
 //! | `level`, `facts` | how much depends on a warning, and on each |
+//! | `words` | the names of what users set, in Rust, scenes and Python |
 //! | `fold` | which of them follow from which, and what to tell of many |
 
 mod advised;
@@ -30,11 +31,13 @@ mod shock;
 pub mod sizes;
 mod steps;
 mod watch;
+mod words;
 
 pub use crate::watch::{EnergyBalance, IslandChange, Watch};
 pub use advised::AdvisedMesh;
 pub use level::Level;
 pub use shock::Shock;
+pub use words::Interface;
 
 use serde::{Deserialize, Serialize};
 
@@ -45,7 +48,7 @@ use serde::{Deserialize, Serialize};
 pub enum Warning {
     /// The elements are too long for the shape.
     #[error(
-        "cable {cable:?}: the mesh with elements = {elements} puts points probably more than {error_m:.1e} m off: try elements = {enough}"
+        "cable {cable:?}: the mesh with `elements({elements})` puts points probably more than {error_m:.1e} m off: try `elements({enough})`"
     )]
     CoarseMesh {
         /// Name of the cable.
@@ -60,8 +63,8 @@ pub enum Warning {
     /// The moment of a clamp is that of the elements beside it, which are longer than what bends
     /// there.
     #[error(
-        "cable {cable:?}: at {arc_length_m:.4} m it bends within {layer_m:.2e} m, which the mesh with elements = {elements} does not resolve: the moment there, {moment_nm:.3e} N m, \
-         would be some {elastica_nm:.3e} N m: try {enough}"
+        "cable {cable:?}: at {arc_length_m:.4} m it bends within {layer_m:.2e} m, which the mesh with `elements({elements})` does not resolve: the moment there, {moment_nm:.3e} N m, \
+         would be some {elastica_nm:.3e} N m: try `{enough}`"
     )]
     CoarseMoment {
         /// Name of the cable.
@@ -81,8 +84,8 @@ pub enum Warning {
     },
     /// A kink at a load, a clamp or a held point is smeared over the elements beside it.
     #[error(
-        "cable {cable:?}: at {arc_length_m:.4} m it turns sharply, and the mesh with elements = {elements} is smooth there, which puts points probably {error_m:.1e} m off: try \
-         {enough}, or make it two cables with a junction there"
+        "cable {cable:?}: at {arc_length_m:.4} m it turns sharply, and the mesh with `elements({elements})` is smooth there, which puts points probably {error_m:.1e} m off: try \
+         `{enough}`, or make it two cables with a junction there"
     )]
     CoarseKink {
         /// Name of the cable.
@@ -98,7 +101,7 @@ pub enum Warning {
     },
     /// There are obstacles, but no effect by which they are touched.
     #[error(
-        "cable {cable:?}: it has {count} obstacles and no effect Contact, so it touches none: give it one, or no obstacles"
+        "cable {cable:?}: it has {count} obstacles and no effect `Contact`, so it touches none: give it one, or no obstacles"
     )]
     UntouchedObstacles {
         /// Name of the cable.
@@ -108,8 +111,8 @@ pub enum Warning {
     },
     /// The elements are too long for a small motion of a cable whose shape is resolved.
     #[error(
-        "cable {cable:?}: the mesh with elements = {elements} is probably off by {error_m:.1e} m, where the largest displacement is \
-         {displacement_m:.1e} m: try elements = {enough}"
+        "cable {cable:?}: the mesh with `elements({elements})` is probably off by {error_m:.1e} m, where the largest displacement is \
+         {displacement_m:.1e} m: try `elements({enough})`"
     )]
     CoarseMotion {
         /// Name of the cable.
@@ -125,7 +128,7 @@ pub enum Warning {
     },
     /// An element between points that are held or loaded turns too much.
     #[error(
-        "cable {cable:?}: an element turns by {turn_rad:.2} rad from end to end: try elements = {enough} instead of {elements}"
+        "cable {cable:?}: an element turns by {turn_rad:.2} rad from end to end: try `elements({enough})` instead of {elements}"
     )]
     CoarseElement {
         /// Name of the cable.
@@ -140,7 +143,7 @@ pub enum Warning {
     /// The integration steps are too long for the motion.
     #[error(
         "cable {cable:?}: with steps of {step_s:.2e} s its motion at {time_s:.4} s is probably off by {error_m:.1e} m after one oscillation: \
-         try steps of {enough_s:.1e} s, or a tolerance"
+         try steps of {enough_s:.1e} s, `StepControl::MaxStep({enough_s:.1e})`, or `StepControl::Tolerance`"
     )]
     LongSteps {
         /// Name of the cable.
@@ -287,7 +290,7 @@ pub enum Warning {
     /// It is deep in what it touches, for longer than an impact takes, or at rest.
     #[error(
         "cable {cable:?}: at {arc_length_m:.4} m it lies deep in what it touches, by {share:.2} of its radius: between its points of contact, try \
-         elements = {enough}; pressed in by its load, try a larger stiffness of contact"
+         `elements({enough})`; pressed in by its load, try a larger `Contact::stiffness`"
     )]
     Sinks {
         /// Name of the cable.
@@ -302,7 +305,7 @@ pub enum Warning {
     /// Its elements are long beside the radius around which contact bends them.
     #[error(
         "cable {cable:?}: at {arc_length_m:.4} m an element turns by {turn_rad:.2} rad about what it touches, so friction and depth there are probably off by several per \
-         cent: try elements = {enough}, 12 per turn"
+         cent: try `elements({enough})`, 12 per turn"
     )]
     CoarseContact {
         /// Name of the cable.
@@ -345,7 +348,7 @@ pub enum Warning {
     },
     /// Its elements are too long for the kinks of its torque.
     #[error(
-        "cable {cable:?}: its torque times the length of an element is {ratio:.2} EI: above 1.5 the torque at which it kinks is off by more than 0.2 %, and kinks are not resolved; try elements = {enough} instead of {elements}"
+        "cable {cable:?}: its torque times the length of an element is {ratio:.2} EI: above 1.5 the torque at which it kinks is off by more than 0.2 %, and kinks are not resolved; try `elements({enough})` instead of {elements}"
     )]
     CoarseTwist {
         /// Name of the cable.
@@ -394,7 +397,7 @@ pub enum Warning {
     /// Lighter than any cable, or so light that waves run faster along it than in any material.
     #[error(
         "cable {cable:?}: its density is {density_kg_m3:.3e} kg/m^3, with waves of {wave_speed_m_s:.1e} m/s, as no material has: it is in kg/m^3 (rope 500 to 1500, steel \
-         7850); was {density_kg_m3} g/cm^3 meant? For a cable without weight set gravity_scale = 0"
+         7850); was {density_kg_m3:.3} g/cm^3 meant? For a cable without weight set `GravityScale(0.0)`"
     )]
     LightMaterial {
         /// Name of the cable.
@@ -437,7 +440,7 @@ pub fn less_energy(discrete_gradient: bool) -> &'static str {
     match discrete_gradient {
         true => "take a smaller tolerance or shorter steps",
         false => {
-            "take a smaller tolerance, shorter steps, or the discrete gradient (fidelity = \"game\"), which makes none"
+            "take a smaller tolerance, shorter steps, or the discrete gradient (`Fidelity::Game`), which makes none"
         }
     }
 }

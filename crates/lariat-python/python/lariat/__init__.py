@@ -29,6 +29,7 @@ from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat.contact import Obstacle
 from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, RestPiece, RestShape, Torsion
 from lariat.errors import Error
+from lariat.exchange import EndMotion, Exchange, Exchanged
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
 from lariat.reel import Reel
 from lariat.scenes import Probe, Run, import_mjcf, keys, load, rules, run, statics
@@ -44,7 +45,10 @@ __all__ = [
     "Contact",
     "Damping",
     "Drag",
+    "EndMotion",
     "Error",
+    "Exchange",
+    "Exchanged",
     "FixedJoint",
     "Flow",
     "GravityScale",

@@ -368,7 +368,7 @@ class Cable:
 
     def set_obstacles(self, obstacles: Iterable[Obstacle]) -> None:
         """Sets what the cable can touch from the next step on, in place of the obstacles it had; their velocities count from now. It touches
-        them if it has the effect Contact. Obstacles are no part of ``to_bytes``: set them again. Raises InWorldError, InvalidValueError,
+        them if it has the effect Contact. ``to_bytes``, ``copy`` and ``cut`` keep them. Raises InWorldError, InvalidValueError,
         BuilderError."""
 
     def contacts(self) -> list[Touch]:
@@ -426,8 +426,9 @@ def recommended_elements(fidelity: Fidelity = "engineering") -> int:
 class CoSimulation:
     """A cable on bodies that another program moves: per step it takes their poses, and returns forces, moments and the impedance.
 
-    A body is known by a reference point, by convention its centre of mass. Rotations are quaternions x, y, z, w. The exchange is explicit:
-    stable where the impedance is small beside the mass matrix of the bodies.
+    A body is known by a reference point, by convention its centre of mass. Rotations are quaternions x, y, z, w. ``step`` once per step, with
+    the last forces on the bodies, is an explicit exchange: stable where the impedance is small beside the mass matrix of the bodies.
+    ``lariat.Exchange`` repeats it until forces and poses agree, and is stable for any.
     """
 
     def __new__(cls, cable: Cable) -> Self:
@@ -460,8 +461,20 @@ class CoSimulation:
         kg m^2: if the velocities at the end of a step of ``dt`` (s) differ by dv from the prescribed ones, the impulse on the bodies differs by
         -Z dv."""
 
+    def snapshot(self) -> bytes:
+        """Returns the state of cable and ends, for ``restore``."""
+
+    def restore(self, snapshot: bytes) -> None:
+        """Restores a state of this co-simulation; the run continues bitwise from there. Raises FormatError, WrongCountError."""
+
+    def copy(self) -> CoSimulation:
+        """Returns a copy with a cable of its own, obstacles included. ``copy.copy`` and ``copy.deepcopy`` use it."""
+
+    def __copy__(self) -> CoSimulation: ...
+    def __deepcopy__(self, memo: dict[int, Any], /) -> CoSimulation: ...
+
     def to_bytes(self) -> bytes:
-        """Returns cable and ends; ``from_bytes`` continues the run bitwise. Pickle uses it."""
+        """Returns cable, obstacles and ends; ``from_bytes`` continues the run bitwise. Pickle uses it."""
 
     @staticmethod
     def from_bytes(bytes: bytes) -> CoSimulation:
@@ -493,7 +506,9 @@ class World:
         InvalidValueError, UnknownFidelityError, UnknownKindError."""
 
     def step(self) -> None:
-        """Advances bodies and cables by ``dt``. Raises StepRefusedError if some cables cannot step; all others have advanced."""
+        """Advances bodies and cables by ``dt``. The first warning of each kind, before the first step and after each, goes through Python's
+        ``warnings`` as ``errors.ResultWarning``; ``warnings()`` has all. Raises StepRefusedError if some cables cannot step; all others have
+        advanced."""
 
     def add_body(self, builder: RigidBodyBuilder, colliders: Sequence[ColliderBuilder] | None = None) -> RigidBodyHandle:
         """Adds a body with its colliders. Raises InvalidValueError, BuilderError."""

@@ -209,6 +209,10 @@ class EmptyIslandError(Error):
     """Ends that changed while another thread stepped."""
 
 
+class ExchangeError(Error):
+    """Forces and motion of an exchange that do not agree: time, value (what they miss, as a share of the largest force)."""
+
+
 class ImpedanceError(Error):
     """A state whose impedance cannot be computed: time, value (the step in s)."""
 

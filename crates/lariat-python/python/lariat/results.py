@@ -150,7 +150,7 @@ class EndForces(NamedTuple):
     moment: Array
     """Mean moment about the reference point of the body in N m, shape (ends, 3)."""
     end_force: Array
-    """Force at the end of the step in N, shape (ends, 3)."""
+    """Force at the end of the step in N, shape (ends, 3); of cables with contact or a reel, whose forces are known over steps alone, the mean."""
     work: Array
     """Work on the body over the step in J, shape (ends,)."""
 

@@ -8,11 +8,23 @@ use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Contact, Error, Vector3};
 use nalgebra::{Quaternion, UnitQuaternion};
 use pyo3::prelude::*;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// An obstacle, and the time in s at which it was set.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct Laid {
+    time: f64,
+    parameters: Parameters,
+}
+
+/// Returns the obstacles, each with its index as key.
+pub fn made(laid: &[Laid]) -> Result<Vec<Obstacle>, Raise> {
+    laid.iter().enumerate().map(|(key, laid)| laid.parameters.clone().obstacle(key as u64, laid.time)).collect()
+}
+
 /// What `lariat.contact.Obstacle` holds.
-#[derive(Deserialize)]
+#[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
     shape: String,
@@ -96,17 +108,19 @@ pub fn touch<'py>(py: Python<'py>, touch: &Touch, obstacle: Bound<'py, PyAny>) -
 impl Cable {
     /// Sets what the cable can touch from the next step on, in place of the obstacles it had.
     fn set_obstacles(&self, py: Python<'_>, obstacles: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.own("take obstacles of its own: the colliders of the world are its obstacles")?;
+        let own = self.own("take obstacles of its own: the colliders of the world are its obstacles")?.clone();
         let wrong = |error: serde_json::Error| raise(Raise::new("BuilderError", error.to_string()));
         let parameters = obstacles.try_iter()?.map(|item| {
             let plain = py.import("lariat.contact")?.getattr("plain")?.call1((item?,))?;
             serde_json::from_value::<Parameters>(data(&plain)?).map_err(wrong)
         });
         let parameters = parameters.collect::<PyResult<Vec<_>>>()?;
-        let time = self.read(py, |cable| Ok(cable.time()))?;
-        let made = parameters.into_iter().enumerate().map(|(key, p)| p.obstacle(key as u64, time));
-        let made = made.collect::<Result<Vec<_>, Raise>>().map_err(raise)?;
-        self.change(py, |cable| cable.set_obstacles(made))
+        let time = own.with(py, |cable| cable.time());
+        let laid: Vec<_> = parameters.into_iter().map(|parameters| Laid { time, parameters }).collect();
+        let made = made(&laid).map_err(raise)?;
+        self.change(py, |cable| cable.set_obstacles(made))?;
+        self.1.with(py, |own| *own = laid);
+        Ok(())
     }
 
     /// What the cable touched at the end of the last step, by the index of the obstacle.

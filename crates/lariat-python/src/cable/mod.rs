@@ -12,6 +12,7 @@ use crate::saved;
 use crate::section::Section;
 use crate::shared::{Shared, repeat_for_a_while};
 use crate::world::Contents;
+pub use contact::Laid;
 use lariat_ancf as ancf;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{EquilibriumOptions, Error};
@@ -29,19 +30,38 @@ enum Home {
     World(Shared<Contents>, CableHandle),
 }
 
-/// A cable of ANCF elements with its rule, integrator and state. See `lariat.Cable` in the stubs for all arguments.
+/// A cable of ANCF elements with its rule, integrator and state, and the obstacles that it was given by itself, which are saved with it. See
+/// `lariat.Cable` in the stubs for all arguments.
 #[pyclass(frozen, module = "lariat")]
-pub struct Cable(Home);
+pub struct Cable(Home, Shared<Vec<Laid>>);
 
 impl Cable {
     /// Makes the Python object of a cable.
     pub fn new(cable: ancf::Cable) -> Self {
-        Cable(Home::Own(Shared::new(cable)))
+        Cable::laid(cable, Vec::new())
     }
 
     /// Makes the Python object of a cable of a world.
     pub fn of_world(contents: Shared<Contents>, handle: CableHandle) -> Self {
-        Cable(Home::World(contents, handle))
+        Cable(Home::World(contents, handle), Shared::new(Vec::new()))
+    }
+
+    /// Makes the Python object of a cable that has these obstacles.
+    fn laid(cable: ancf::Cable, obstacles: Vec<Laid>) -> Self {
+        Cable(Home::Own(Shared::new(cable)), Shared::new(obstacles))
+    }
+
+    /// Makes the Python object of a cable that was saved with these obstacles.
+    pub fn with_obstacles(mut cable: ancf::Cable, obstacles: Vec<Laid>) -> PyResult<Self> {
+        if !obstacles.is_empty() {
+            cable.set_obstacles(contact::made(&obstacles).map_err(raise)?).map_err(raise)?;
+        }
+        Ok(Cable::laid(cable, obstacles))
+    }
+
+    /// Returns the obstacles of its own.
+    pub fn obstacles(&self, py: Python<'_>) -> Vec<Laid> {
+        self.1.with(py, |own| own.clone())
     }
 
     /// Returns a copy of the cable.
@@ -219,14 +239,16 @@ impl Cable {
 
     /// Returns description and state as bytes; `from_bytes` continues the run bitwise.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let written = self.read(py, |cable| Ok(saved::write(cable)))?;
+        let obstacles = self.obstacles(py);
+        let written = self.read(py, |cable| Ok(saved::write(&(cable, &obstacles))))?;
         saved::to_bytes(py, "cable", written)
     }
 
     /// Returns a cable from the bytes of `to_bytes`, of the same version.
     #[staticmethod]
     fn from_bytes(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
-        saved::from_bytes("cable", &bytes).map(Cable::new)
+        let (cable, obstacles) = saved::from_bytes("cable", &bytes)?;
+        Cable::with_obstacles(cable, obstacles)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
@@ -235,8 +257,8 @@ impl Cable {
     }
 
     /// Returns a copy; that of a cable of a world belongs to no world.
-    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
-        self.copied(py).map(Cable::new)
+    pub fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        Ok(Cable::laid(self.copied(py)?, self.obstacles(py)))
     }
 
     fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
@@ -256,7 +278,8 @@ impl Cable {
 
     /// Cuts the cable; this one keeps the part before the point, the other is returned.
     fn cut(&self, py: Python<'_>, at: Place) -> PyResult<Self> {
-        self.own("be cut by itself")?.compute(py, |cable| cable.cut(at.0)).map(Cable::new).map_err(raise)
+        let cut = self.own("be cut by itself")?.compute(py, |cable| cable.cut(at.0)).map_err(raise)?;
+        Ok(Cable::laid(cut, self.obstacles(py)))
     }
 }
 

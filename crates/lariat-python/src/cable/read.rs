@@ -5,6 +5,7 @@ use crate::convert::{Array, Place, object, result, table, vector, vectors};
 use crate::integrator::Integrator;
 use crate::section::Section;
 use lariat_ancf::coupling::Linearisation;
+use lariat_ancf::warning::Interface;
 use lariat_ancf::{Sample, Vector3};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -152,7 +153,7 @@ impl Cable {
 
     /// Warnings about the cable.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        self.read(py, |cable| Ok(cable.warnings().iter().map(ToString::to_string).collect()))
+        self.read(py, |cable| Ok(cable.warnings().iter().map(|warning| Interface::Python.text(warning)).collect()))
     }
 
     /// Arc length in m of the largest tension, and that tension in N.

@@ -70,6 +70,6 @@ impl Cable {
     fn break_overloaded<'py>(&self, py: Python<'py>) -> PyResult<Option<(Cable, Bound<'py, PyAny>)>> {
         self.own("break by itself: the world breaks it")?;
         let Some((rest, how)) = self.change(py, |cable| cable.break_overloaded())? else { return Ok(None) };
-        Ok(Some((Cable::new(rest), broken(py, &how)?)))
+        Ok(Some((Cable::laid(rest, self.obstacles(py)), broken(py, &how)?)))
     }
 }

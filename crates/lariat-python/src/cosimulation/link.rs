@@ -6,6 +6,7 @@
 //! (`lariat_ancf::island`, driven bodies).
 
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::integrate::OneStep;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
 use lariat_ancf::{self as ancf, At, Error, Vector3};
 use nalgebra::{Matrix3, UnitQuaternion};
@@ -54,14 +55,19 @@ pub(super) struct Link {
 }
 
 impl End {
+    /// Returns velocity and angular velocity of the uniform motion of a step to `to`.
+    fn mean_rates(&self, to: &Motion, h: f64) -> [Vector3<f64>; 2] {
+        let from = &self.motion;
+        [(to.position - from.position) / h, (to.rotation * from.rotation.inverse()).scaled_axis() / h]
+    }
+
     /// Returns the driven body of a step to `to`.
     fn body(&self, to: &Motion, h: f64) -> Result<RigidBody, Error> {
         let from = &self.motion;
         let mut body = RigidBody::new(1.0, Matrix3::identity(), from.position)?;
         body.rotation = from.rotation;
-        body.velocity = (to.position - from.position) / h;
-        body.angular_velocity = (to.rotation * from.rotation.inverse()).scaled_axis() / h;
-        let mean = [body.velocity, body.angular_velocity];
+        let mean = self.mean_rates(to, h);
+        [body.velocity, body.angular_velocity] = mean;
         body.unsteadiness = [from, to].map(|end| [end.velocity - mean[0], end.spin - mean[1]]);
         body.free = [false; 6];
         Ok(body)
@@ -104,6 +110,35 @@ impl Link {
         Ok(())
     }
 
+    /// Returns the forces on the bodies at the end of a step of `h` (s) in which they moved `to` there; `None` for those that the step itself
+    /// knows there, and of contacts and reels, which have forces over steps alone.
+    fn end_forces(
+        &mut self,
+        cable: &mut ancf::Cable,
+        to: &[Motion],
+        pins: &[PinConstraint],
+        bodies: &[RigidBody],
+        h: f64,
+    ) -> Result<Vec<Option<Vector3<f64>>>, Error> {
+        let by_impulses = cable.effects().contact.is_some() || cable.has_reel();
+        if by_impulses || !cable.integrator().method.uses_discrete_gradients() {
+            return Ok(vec![None; pins.len()]);
+        }
+        let (mut bodies, mut accelerations) = (bodies.to_vec(), Vec::new());
+        for ((body, end), to) in bodies.iter_mut().zip(&self.ends).zip(to) {
+            let mean = end.mean_rates(to, h);
+            // that of the cubic: 2 and 4 are the derivatives of its rates at the end of the step
+            let of = |mean: Vector3<f64>, from: Vector3<f64>, to: Vector3<f64>| {
+                ((from - mean) * 2.0 + (to - mean) * 4.0) / h
+            };
+            accelerations.push([of(mean[0], end.motion.velocity, to.velocity), of(mean[1], end.motion.spin, to.spin)]);
+            (body.position, body.rotation) = (to.position, to.rotation);
+            (body.velocity, body.angular_velocity) = (to.velocity, to.spin);
+        }
+        let forces = self.island.forces_now(&mut [cable], &bodies, pins, &accelerations)?;
+        Ok(forces.into_iter().map(|[force, _]| Some(force)).collect())
+    }
+
     /// Advances the cable by `h` (s) while the bodies move `to` there.
     pub(super) fn step(
         &mut self,
@@ -128,14 +163,16 @@ impl Link {
             .collect();
         let integrator = cable.integrator();
         self.island.step(&mut [cable], &mut bodies, &pins, integrator, h)?;
-        let wrenches = self.ends.iter_mut().zip(to).zip(self.island.accounts());
+        let accounts = self.island.accounts().to_vec();
+        let end_forces = self.end_forces(cable, to, &pins, &bodies, h).unwrap_or_else(|_| vec![None; pins.len()]);
+        let wrenches = self.ends.iter_mut().zip(to).zip(accounts).zip(end_forces);
         Ok(wrenches
-            .map(|((end, to), account)| {
+            .map(|(((end, to), account), end_force)| {
                 let levers = [&end.motion, to].map(|motion| motion.rotation * end.anchor);
                 let force = account.impulse / h;
                 let moment = account.angular_impulse / h + (0.5 * (levers[0] + levers[1])).cross(&force);
                 end.motion = *to;
-                Wrench { force, moment, end_force: account.force, work: account.work }
+                Wrench { force, moment, end_force: end_force.unwrap_or(account.force), work: account.work }
             })
             .collect())
     }

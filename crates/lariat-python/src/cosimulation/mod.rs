@@ -7,8 +7,9 @@
 //!
 //! # Validity
 //!
-//! The exchange is explicit, once per step: stable if Z is small beside the mass matrix of the bodies. J is the impulse of the
-//! loads less the change of momentum of the cable, to rounding (`lariat_ancf::island`, accounts of pins).
+//! Once per step with the last forces, the exchange is explicit: stable if Z is small beside the mass matrix of the bodies. The module
+//! `lariat.exchange` repeats steps from a snapshot until forces and poses agree, which is stable for any. J is the impulse of the loads
+//! less the change of momentum of the cable, to rounding (`lariat_ancf::island`, accounts of pins).
 //!
 //! # References
 //!
@@ -17,7 +18,7 @@
 mod impedance;
 mod link;
 
-use crate::cable::Cable;
+use crate::cable::{Cable, Laid};
 use crate::convert::{Array, Place, Vector, result, table, vectors};
 use crate::error::raise;
 use crate::saved;
@@ -28,7 +29,7 @@ use link::{End, Link, Motion, Wrench};
 use nalgebra::{Quaternion, UnitQuaternion};
 use numpy::PyArray2;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 use std::borrow::Cow;
 
 /// A cable on bodies that another program moves.
@@ -70,6 +71,17 @@ fn rows(array: Option<Array>, ends: usize, columns: usize, what: &str) -> PyResu
     }
     finite(what, &array.values)?;
     Ok(Some(array.values.chunks_exact(columns).map(<[f64]>::to_vec).collect()))
+}
+
+/// What the bytes of `snapshot` hold.
+const STATE: &str = "state of a co-simulation";
+
+impl CoSimulation {
+    fn of_parts(py: Python<'_>, cable: Cable, ends: Vec<End>) -> PyResult<Self> {
+        let object = Bound::new(py, cable)?;
+        let cable = object.get().own("be part of a co-simulation")?.clone();
+        Ok(CoSimulation { link: Shared::new(Link::new(ends)), cable, object: object.unbind() })
+    }
 }
 
 #[pymethods]
@@ -187,20 +199,56 @@ impl CoSimulation {
         table(py, z.as_slice().to_vec(), z.ncols())
     }
 
+    /// Returns the state of cable and ends as bytes, for `restore`.
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let cable = self.cable.clone();
+        let written = self.link.compute(py, move |link| saved::write(&(cable.lock().snapshot(), &link.ends)));
+        saved::to_bytes(py, STATE, written)
+    }
+
+    /// Restores a state of this co-simulation; the run continues bitwise from there.
+    fn restore(&self, py: Python<'_>, snapshot: Cow<'_, [u8]>) -> PyResult<()> {
+        let (state, ends): (ancf::Snapshot, Vec<End>) = saved::from_bytes(STATE, &snapshot)?;
+        let cable = self.cable.clone();
+        let restored = self.link.compute(py, move |link| {
+            let mut cable = cable.lock();
+            if ends.len() != link.ends.len() {
+                let (what, count, expected) = ("ends of the co-simulation", ends.len(), link.ends.len());
+                return Err(Error::WrongCount { cable: cable.name().to_string(), what, count, expected });
+            }
+            cable.restore(state)?;
+            link.ends = ends;
+            Ok(())
+        });
+        restored.map_err(raise)
+    }
+
+    /// Returns a copy, with a cable of its own.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let ends = self.link.with(py, |link| link.ends.clone());
+        Self::of_parts(py, self.object.get().copy(py)?, ends)
+    }
+
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyDict>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
     /// Returns cable and ends as bytes; `from_bytes` continues the run bitwise.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let cable = self.cable.clone();
-        let written = self.link.compute(py, move |link| saved::write(&(&*cable.lock(), &link.ends)));
+        let (cable, obstacles) = (self.cable.clone(), self.object.get().obstacles(py));
+        let written = self.link.compute(py, move |link| saved::write(&(&*cable.lock(), &obstacles, &link.ends)));
         saved::to_bytes(py, "co-simulation", written)
     }
 
     /// Returns a co-simulation from the bytes of `to_bytes`, of the same version.
     #[staticmethod]
     fn from_bytes(py: Python<'_>, bytes: Cow<'_, [u8]>) -> PyResult<Self> {
-        let (cable, ends): (ancf::Cable, Vec<End>) = saved::from_bytes("co-simulation", &bytes)?;
-        let object = Bound::new(py, Cable::new(cable))?;
-        let cable = object.get().own("be part of a co-simulation")?.clone();
-        Ok(CoSimulation { link: Shared::new(Link::new(ends)), cable, object: object.unbind() })
+        let (cable, obstacles, ends): (ancf::Cable, Vec<Laid>, Vec<End>) = saved::from_bytes("co-simulation", &bytes)?;
+        Self::of_parts(py, Cable::with_obstacles(cable, obstacles)?, ends)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {

@@ -1,12 +1,63 @@
 //! What a world says: events, warnings, what statics moved, and contacts of cables with each other.
 
-use super::World;
+use super::{Contents, World};
 use crate::cable::Cable;
 use crate::convert::{result, vector};
 use crate::error::raise;
+use lariat_ancf::warning::Interface;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
-use lariat_rapier::{CableHandle, Event};
+use lariat_rapier::{CableHandle, Event, Warning};
 use pyo3::prelude::*;
+use std::ffi::CString;
+
+/// Gives lines to Python's `warnings`, where the filters of the user decide.
+pub(super) fn warn(py: Python<'_>, lines: Vec<String>) -> PyResult<()> {
+    if lines.is_empty() {
+        return Ok(());
+    }
+    let category = py.import("lariat.errors")?.getattr("ResultWarning")?;
+    lines.into_iter().try_for_each(|line| PyErr::warn(py, &category, &CString::new(line)?, 1))
+}
+
+impl Contents {
+    /// Returns the lines to tell of a world before its first step.
+    pub(super) fn of_start(&mut self) -> Vec<String> {
+        let warnings = if self.time == 0.0 { self.set.warnings(&self.world) } else { Vec::new() };
+        warnings.into_iter().filter_map(|warning| self.first_of_kind(&warning)).collect()
+    }
+
+    /// Returns the lines to tell of the last step.
+    pub(super) fn of_events(&mut self) -> Vec<String> {
+        let name = |attachment| {
+            let cable = self.set.attachment(attachment).ok()?.cable();
+            Some(self.set.get(cable).ok()?.name().to_string())
+        };
+        let warning = |event: &Event| match *event {
+            Event::Warning { cable, ref warning } => Some(Warning::Cable { cable, warning: warning.clone() }),
+            Event::GapOpened { attachment, gap } => Some(Warning::OpenGap { attachment, name: name(attachment)?, gap }),
+            Event::Unsettled { attachment, how } => {
+                Some(Warning::Unsettled { attachment, name: name(attachment)?, how })
+            }
+            _ => None,
+        };
+        let warnings: Vec<_> = self.set.events().iter().filter_map(warning).collect();
+        warnings.into_iter().filter_map(|warning| self.first_of_kind(&warning)).collect()
+    }
+
+    /// Returns the text of a warning, unless one of its kind was told.
+    fn first_of_kind(&mut self, warning: &Warning) -> Option<String> {
+        let debug = match warning {
+            Warning::Cable { warning, .. } => format!("{warning:?}"),
+            other => format!("{other:?}"),
+        };
+        let kind = debug.split(' ').next().unwrap_or_default();
+        if self.told.iter().any(|told| told == kind) {
+            return None;
+        }
+        self.told.push(kind.to_string());
+        Some(Interface::Python.text(warning))
+    }
+}
 
 #[pymethods]
 impl World {
@@ -19,7 +70,7 @@ impl World {
     /// What the cables say about their mesh, steps, law and sizes, and about colliders that they are in or do not bounce off.
     fn warnings(&self, py: Python<'_>) -> Vec<String> {
         let warnings = self.0.compute(py, |contents| contents.set.warnings(&contents.world));
-        warnings.iter().map(ToString::to_string).collect()
+        warnings.iter().map(|warning| Interface::Python.text(warning)).collect()
     }
 
     /// Moves cables and the bodies on them to static equilibrium; returns whether all is stable, and what was moved.
@@ -89,7 +140,9 @@ impl World {
                     cable,
                 )
             }
-            Event::Warning { cable, warning } => (format!("warning: {warning}"), Some(cable)),
+            Event::Warning { cable, warning } => {
+                (format!("warning: {}", Interface::Python.text(&warning)), Some(cable))
+            }
             other => (format!("{other:?}"), None),
         };
         let collider = collider.map(|c| result(py, "ColliderHandle", c.into_raw_parts())).transpose()?;

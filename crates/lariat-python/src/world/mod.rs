@@ -50,6 +50,9 @@ pub struct Contents {
     names: Names,
     /// Paths and loads of a scene.
     script: Script,
+    /// Kinds of warnings that were told through Python's `warnings`.
+    #[serde(skip)]
+    told: Vec<String>,
 }
 
 /// A world of rigid bodies and cables.
@@ -115,23 +118,27 @@ impl World {
         };
         set.settings.warn_level = warn_level.map(level).transpose()?;
         let (bodies, attachments, sheaves, junctions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (names, script) = Default::default();
-        let contents = Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions, names, script };
+        let (names, script, told) = Default::default();
+        let contents = Contents { world, set, time: 0.0, bodies, attachments, sheaves, junctions, names, script, told };
         Ok(World(Shared::new(contents)))
     }
 
-    /// Advances bodies and cables by `dt`.
+    /// Advances bodies and cables by `dt`. The first warning of each kind goes through Python's `warnings`.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
-        let outcome = self.0.compute(py, |Contents { world, set, time, script, .. }| {
+        let (outcome, lines) = self.0.compute(py, |contents| {
+            let mut lines = contents.of_start();
+            let Contents { world, set, time, script, .. } = contents;
             let end = *time + f64::from(world.integration_parameters.dt);
             script.set(world, *time, end);
             let outcome = set.step(world);
             if matches!(outcome, Ok(()) | Err(Error::StepRefused { .. })) {
                 *time = end;
             }
-            outcome
+            lines.extend(contents.of_events());
+            (outcome, lines)
         });
-        outcome.map_err(raise)
+        outcome.map_err(raise)?;
+        events::warn(py, lines)
     }
 
     /// Adds a copy of a cable, and returns it as a part of this world.

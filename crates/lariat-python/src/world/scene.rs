@@ -116,8 +116,18 @@ pub fn load_scene(py: Python<'_>, file: &str, text: &str, overrides: Vec<String>
         let handles = bodies.iter().map(|(_, handle)| *handle).collect();
         let names = Names { bodies, attachments: attachment_names, sheaves: sheave_names };
         let junctions = Vec::new();
-        let contents =
-            Contents { world, set, time: 0.0, bodies: handles, attachments, sheaves, junctions, names, script };
+        let contents = Contents {
+            world,
+            set,
+            time: 0.0,
+            bodies: handles,
+            attachments,
+            sheaves,
+            junctions,
+            names,
+            script,
+            told: Vec::new(),
+        };
         Ok::<_, Error>((World(Shared::new(contents)), told))
     });
     loaded.map_err(raise)

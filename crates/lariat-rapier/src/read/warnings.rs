@@ -80,7 +80,7 @@ pub enum Warning {
     /// What joints, limits and contacts do to a body on joints changed from step to step.
     #[error(
         "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: in {:.0} % of the steps before {:.3} s, and its \
-         forces are {:.1} % off those that moved it; do not trust them: take shorter host steps, more `rapier_steps` or solver iterations, weld links \
+         forces are {:.1} % off those that moved it; do not trust them: take shorter host steps, more `Settings::rapier_steps` or solver iterations, weld links \
          into one body, or keep heavy links away from light ones", 100.0 * how.steps, how.time, 100.0 * how.force
     )]
     Unsettled {

@@ -194,7 +194,9 @@ impl Document<'_> {
     fn wrong_type(&self, path: &KeyPath, value: &DeValue<'_>) -> Error {
         let found = match value {
             DeValue::String(text) => format!("the text {text:?}"),
-            DeValue::Integer(_) | DeValue::Float(_) => format!("the number {}", number_of(value)),
+            DeValue::Integer(_) => format!("the number {}", number_of(value)),
+            // with its point, which is why it is no whole number
+            DeValue::Float(_) => format!("the number {:?}", number_of(value)),
             DeValue::Boolean(flag) => format!("{flag}"),
             DeValue::Datetime(date) => format!("the date {date}"),
             DeValue::Array(items) => format!("an array of {} values", items.len()),

@@ -127,6 +127,24 @@ pub(super) fn read(
     Ok(AttachmentScene { name, cable, arc_length, body, anchor, clamp, direction, gap })
 }
 
+/// Says why an anchor may be so far from the point of its cable, if the scene shows it.
+fn why_apart(scene: &Scene, attachment: &AttachmentScene, point: &Vector3<f64>, limit: f64) -> String {
+    let (Some(body), Some(anchor)) = (attachment.body, attachment.anchor) else { return String::new() };
+    let body = &scene.bodies[body];
+    if (anchor - point).norm() <= limit {
+        let name = &body.name;
+        return format!(
+            ": `anchor` is a point in the axes of body {name:?}, from its origin; was one of the world meant?"
+        );
+    }
+    let many = body.angle > core::f64::consts::TAU * (1.0 + 1e-6);
+    if many {
+        format!(": body {:?} is rotated by {} rad; were degrees meant?", body.name, body.angle)
+    } else {
+        String::new()
+    }
+}
+
 /// Compares the anchors with the points of the cables as drawn.
 pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable], purpose: Purpose) -> Result<(), Error> {
     if purpose != Purpose::Run || scene.equilibrium {
@@ -142,8 +160,9 @@ pub(super) fn check_start(doc: &Document<'_>, scene: &Scene, cables: &[Cable], p
         let point = sample.map_err(|error| doc.conflict(&at, error.to_string()))?.position;
         let gap = (point - anchor).norm();
         if gap > limit {
+            let why = why_apart(scene, attachment, &point, limit);
             let (anchor, point) = (anchor.as_slice(), point.as_slice());
-            let problem = format!("{anchor:?} is {gap:.3e} m from the cable point, which starts at {point:?}");
+            let problem = format!("{anchor:?} is {gap:.3e} m from the cable point, which starts at {point:?}{why}");
             return Err(doc.conflict(&at, problem));
         }
     }

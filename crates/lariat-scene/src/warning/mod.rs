@@ -7,7 +7,7 @@ mod told;
 
 pub(crate) use told::{lines, with_texts};
 
-use lariat_ancf::warning::less_energy;
+use lariat_ancf::warning::{Interface, less_energy};
 use serde::{Deserialize, Serialize};
 
 /// A warning about a scene or a run; its text says what to do. In `summary.json` it is its fields
@@ -160,7 +160,7 @@ pub enum Warning {
     /// Integration makes energy.
     #[error(
         "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): {}",
-        less_energy(*.discrete_gradient), percent = 100.0 * .made_j / .scale_j
+        Interface::Scene.text(&less_energy(*.discrete_gradient)), percent = 100.0 * .made_j / .scale_j
     )]
     EnergyMade {
         /// Time in s.
@@ -377,7 +377,7 @@ pub enum Warning {
         angle_rad: f64,
     },
     /// What a cable says about its own mesh, steps, law and sizes.
-    #[error(transparent)]
+    #[error("{}", Interface::Scene.text(.0))]
     #[serde(untagged)]
     Cable(#[from] lariat_ancf::Warning),
 }

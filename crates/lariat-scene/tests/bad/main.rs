@@ -5,6 +5,7 @@ mod cables;
 mod cases;
 mod joints;
 mod junctions;
+mod mistakes;
 
 use lariat_scene::{Error, Place, Problem, Purpose, Scene, SceneError};
 

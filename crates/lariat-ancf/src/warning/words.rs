@@ -1,0 +1,158 @@
+//! The names that a warning has for what a user sets, in the interface that the user writes.
+//!
+//! The text of a warning names them as Rust does, in backticks: `elements(24)`. The table `NAMES`
+//! says how scenes and Python write each, and [`Interface::text`] puts that in their place: a text
+//! is written once.
+//!
+//! # Alternatives considered
+//!
+//! A text by interface for each warning: they would part. Names that no interface has: none could
+//! be copied into a program.
+
+use core::fmt;
+
+/// What a user writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Interface {
+    /// Programs in Rust, as the texts of warnings are by themselves.
+    Rust,
+    /// Scene files.
+    Scene,
+    /// Programs in Python.
+    Python,
+}
+
+/// By the name in Rust, without arguments, those of scenes and of Python: `{0}` is the first
+/// argument.
+const NAMES: [(&str, [&str; 2]); 9] = [
+    ("elements", ["elements = {0}", "elements={0}"]),
+    (
+        "elements.finest",
+        ["elements = { count = {0}, finest = {1}, at = {2} }", "elements={0}, finest={1}, finest_at={2}"],
+    ),
+    ("Fidelity::Game", ["fidelity = \"game\"", "fidelity=\"game\""]),
+    ("StepControl::MaxStep", ["integrator.max_step = {0}", "Integrator(max_step={0})"]),
+    ("StepControl::Tolerance", ["integrator.tolerance", "Integrator(tolerance=...)"]),
+    ("GravityScale", ["gravity_scale = {0}", "GravityScale({0})"]),
+    ("Contact", ["contact", "lariat.Contact"]),
+    ("Contact::stiffness", ["contact.stiffness", "Contact(stiffness=...)"]),
+    ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)"]),
+];
+
+/// By what Rust writes for a point of a cable, what scenes and Python do.
+const POINTS: [(&str, [&str; 2]); 5] = [
+    ("At::Start", ["\"start\"", "\"start\""]),
+    ("At::End", ["\"end\"", "\"end\""]),
+    ("At::ArcLength(", ["", ""]),
+    ("At::Node(", ["node ", ""]),
+    (")", ["", ""]),
+];
+
+impl Interface {
+    /// Returns the text of a warning with the names of this interface.
+    pub fn text(self, warning: &impl fmt::Display) -> String {
+        let text = warning.to_string();
+        let column = match self {
+            Interface::Rust => return text,
+            Interface::Scene => 0,
+            Interface::Python => 1,
+        };
+        let mut rest = text.as_str();
+        let mut translated = String::new();
+        while let Some((before, after)) = rest.split_once('`') {
+            translated.push_str(before);
+            translated.push('`');
+            // a name that a user gave a cable may have such marks, too
+            let name = after.split_once('`').and_then(|(code, end)| Some((translate(code, column)?, end)));
+            rest = match name {
+                Some((name, end)) => {
+                    translated.push_str(&name);
+                    translated.push('`');
+                    end
+                }
+                None => after,
+            };
+        }
+        translated + rest
+    }
+}
+
+/// Returns the name and the arguments of what Rust writes: those of calls in a row are one list.
+fn parts(code: &str) -> (String, Vec<String>) {
+    let (mut name, mut arguments, mut depth) = (String::new(), Vec::new(), 0);
+    for c in code.chars() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        match (c, depth) {
+            ('(', 1) => arguments.push(String::new()),
+            (',', 1) => arguments.push(String::new()),
+            (')', 0) => {}
+            (_, 0) => name.push(c),
+            _ => arguments.last_mut().into_iter().for_each(|last: &mut String| last.push(c)),
+        }
+    }
+    (name, arguments.into_iter().map(|argument| argument.trim().to_string()).collect())
+}
+
+/// Returns what a column of the table has for what Rust writes.
+fn translate(code: &str, column: usize) -> Option<String> {
+    let (name, arguments) = parts(code);
+    let (_, names) = NAMES.iter().find(|(own, _)| *own == name)?;
+    let mut text = names[column].to_string();
+    for (k, argument) in arguments.iter().enumerate() {
+        let argument = POINTS.iter().fold(argument.clone(), |text, (own, others)| text.replace(own, others[column]));
+        text = text.replace(&format!("{{{k}}}"), &argument);
+    }
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::at::At;
+    use crate::warning::{AdvisedMesh, Warning, less_energy};
+
+    /// The names in the texts of a file, which stand in backticks outside of comments.
+    fn names(source: &str) -> Vec<String> {
+        let code = source.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+        code.split('`').skip(1).step_by(2).map(|span| parts(span).0).collect()
+    }
+
+    #[test]
+    fn every_name_of_a_text_is_in_the_table() {
+        let own = names(include_str!("mod.rs"));
+        assert!(own.len() > 8, "{own:?}");
+        for name in own.iter().filter(|name| *name != "{enough}") {
+            assert!(NAMES.iter().any(|(known, _)| known == name), "{name}");
+        }
+        // names of scenes are in scenes alone
+        assert!(!include_str!("mod.rs").contains("elements = {") && !include_str!("mod.rs").contains("[cable"));
+    }
+
+    #[test]
+    fn each_interface_has_its_own_names() {
+        let cable = String::from("a ` in its name");
+        let coarse = Warning::CoarseMesh { cable: cable.clone(), error_m: 0.1, elements: 3, enough: 7 };
+        for (interface, wanted) in [
+            (Interface::Rust, "`elements(7)`"),
+            (Interface::Scene, "`elements = 7`"),
+            (Interface::Python, "`elements=7`"),
+        ] {
+            let text = interface.text(&coarse);
+            assert!(text.ends_with(wanted) && text.matches('`').count() == 5, "{text}");
+        }
+        let at = vec![At::Start, At::ArcLength(1.5), At::Node(3)];
+        let mesh = AdvisedMesh { elements: 20, finest_m: Some(0.01), at };
+        let mesh = format!("try `{mesh}`");
+        assert_eq!(mesh, "try `elements(20).finest(0.01, [At::Start, At::ArcLength(1.5), At::Node(3)])`");
+        let wanted = "try `elements = { count = 20, finest = 0.01, at = [\"start\", 1.5, node 3] }`";
+        assert_eq!(Interface::Scene.text(&mesh), wanted);
+        let wanted = "try `elements=20, finest=0.01, finest_at=[\"start\", 1.5, 3]`";
+        assert_eq!(Interface::Python.text(&mesh), wanted);
+        assert!(Interface::Scene.text(&less_energy(false)).contains("`fidelity = \"game\"`"));
+    }
+}
