@@ -34,6 +34,12 @@ impl OneLeg {
         if before < self.a { of_length * (before / self.a).sqrt() } else { of_length }
     }
 
+    /// Returns the share of the energy in the store that a step takes up which keeps a share of the
+    /// changes of one with dissipation `before`.
+    pub fn share_held(&self, before: f64, kept: f64) -> f64 {
+        if before > 0.0 { (self.a / before * kept * kept).min(1.0) } else { 1.0 }
+    }
+
     /// Returns the factors on D v and on what counts of O v in the estimated error of a step, which
     /// is `ratio` times as long as the one before, of which `kept` counts.
     pub fn error_factors(&self, ratio: f64, kept: f64) -> [f64; 2] {

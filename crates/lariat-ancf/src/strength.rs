@@ -1,7 +1,6 @@
 //! What a cable withstands before it breaks.
 
 use crate::error::{Error, require};
-use crate::scales::cable::KNOWN;
 use serde::{Deserialize, Serialize};
 
 /// What a cable withstands; without limits, the default, it does not break. A number converts into
@@ -143,12 +142,14 @@ pub(crate) struct LoadRecord {
     origin: f64,
     /// Times in s and shares of the last two readings.
     recent: [Option<[f64; 2]>; 2],
-    /// Of a part of a cable that broke: the share that it had then, that time in s, and the one by
-    /// which the wave of the break has run through it.
+    /// Of a part of a cable that broke.
     #[serde(default)]
-    known: Option<[f64; 3]>,
+    recoil: Option<Recoil>,
     /// What no reading saw, if that is above the limit.
     unseen: Option<Unseen>,
+    /// Time in s of the first reading above the limit since the cable was compared with it.
+    #[serde(default)]
+    exceeded: Option<f64>,
 }
 
 /// A load above the limit that there may have been between readings below it.
@@ -160,6 +161,18 @@ pub(crate) struct Unseen {
     pub shares: [f64; 2],
     /// Time in s between readings.
     pub step: f64,
+}
+
+/// What a part of a cable recoils by after a break: the strain energy that it had. No wave of the
+/// break, and no snap at the end of its flight, strains it by more, until others do work on it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Recoil {
+    /// Strain energy in J.
+    pub energy: f64,
+    /// Time in s of the break.
+    pub from: f64,
+    /// Time in s by which waves and flight are over.
+    pub until: f64,
 }
 
 impl LoadRecord {
@@ -174,8 +187,8 @@ impl LoadRecord {
         self.origin = origin;
     }
 
-    /// Adds a reading.
-    pub fn note(&mut self, load: Load) {
+    /// Adds a reading; that of a [recoil](Recoil) is compared with no limit.
+    pub fn note(&mut self, load: Load, is_recoil: bool) {
         if let [Some([t0, x0]), Some([t1, x1])] = self.recent {
             let (t2, x2) = (load.time, load.share);
             let step = (t1 - t0).max(t2 - t1);
@@ -186,27 +199,25 @@ impl LoadRecord {
             }
         }
         self.recent = [self.recent[1], Some([load.time, load.share])];
-        if self.worst.is_none_or(|worst| load.share > worst.share) && !self.is_known(&load) {
+        if load.share > 1.0 && is_recoil {
+            return;
+        }
+        if load.share > 1.0 {
+            self.exceeded.get_or_insert(load.time);
+        }
+        if self.worst.is_none_or(|worst| load.share > worst.share) {
             self.worst = Some(Load { arc_length: load.arc_length - self.origin, ..load });
         }
     }
 
-    /// Begins that of a part of a cable that broke at a time (s), under a load of this share: that
-    /// is not new until the wave of the break has run through, at `until` (s).
-    pub fn of_part(share: f64, [time, until]: [f64; 2]) -> Self {
-        LoadRecord { known: Some([share, time, until]), ..LoadRecord::default() }
+    /// Begins that of a part of a cable that broke, with what it recoils by.
+    pub fn of_part(recoil: Recoil) -> Self {
+        LoadRecord { recoil: Some(recoil), ..LoadRecord::default() }
     }
 
-    /// Returns whether a load is that which a part had when its cable broke, and which the break
-    /// has not yet relieved.
-    pub fn is_known(&self, load: &Load) -> bool {
-        self.known.is_some_and(|[share, _, until]| load.share <= share * (1.0 + KNOWN) && load.time < until)
-    }
-
-    /// Returns whether a load is known, and the part has moved since: one that is asked again at
-    /// the very time of the break may break again.
-    pub fn is_passing(&self, load: &Load) -> bool {
-        self.is_known(load) && self.known.is_some_and(|[_, time, _]| load.time > time)
+    /// Returns what the cable recoils by, if it is a part of one that broke, at a time in s.
+    pub fn recoil(&self, time: f64) -> Option<Recoil> {
+        self.recoil.filter(|recoil| time < recoil.until)
     }
 
     /// Forgets the readings between which the load is judged, because a program changes the state.
@@ -216,7 +227,13 @@ impl LoadRecord {
 
     /// Returns the largest load since it was taken last, and forgets it.
     pub fn take(&mut self) -> Option<Load> {
+        self.exceeded = None;
         self.worst.take()
+    }
+
+    /// Returns the time in s of the first reading above the limit since the largest was taken last.
+    pub fn exceeded(&self) -> Option<f64> {
+        self.exceeded
     }
 
     /// Returns the largest load since it was taken last.

@@ -194,3 +194,62 @@ fn a_rope_breaks_at_one_strain_however_it_is_damped() {
         }
     }
 }
+
+/// A rope of random stiffness, mass and strength that is pulled from its other end at once breaks within a host step: its parts
+/// are then where they are with host steps as long as those of integration.
+///
+/// *Source.* The steps of integration are the same at all of these host steps.
+#[test]
+fn a_break_does_not_depend_on_the_host_step() {
+    let mut state = 0x5eed_u64;
+    let mut random = |from: f64, to: f64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from * (to / from).powf((state >> 11) as f64 / (1u64 << 53) as f64)
+    };
+    for _ in 0..12 {
+        let (stiffness, line, pull) = (random(1e3, 1e5), random(0.02, 0.5), random(30.0, 300.0));
+        let strength = random(0.4, 1.2) * pull;
+        let run = |rate: usize| {
+            let mut rope = Cable::builder()
+                .points([Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)])
+                .section(Section::from_stiffness(stiffness, 0.01, line).unwrap())
+                .elements(8)
+                .fidelity(Fidelity::Game)
+                .fix(At::Start)
+                .build()
+                .unwrap();
+            rope.add_load(PointLoad::force(2.0, [pull, 0.0, 0.0])).unwrap();
+            rope.set_strength(strength).unwrap();
+            let mut parts = vec![rope];
+            let mut times = Vec::new();
+            for _ in 0..rate / 10 {
+                let mut new = Vec::new();
+                for part in &mut parts {
+                    for (rest, how) in part.step_and_break(1.0 / rate as f64).unwrap() {
+                        times.push(how.time);
+                        new.push(rest);
+                    }
+                }
+                parts.extend(new);
+            }
+            times.sort_by(f64::total_cmp);
+            (parts, times)
+        };
+        let (fine, when) = run(240);
+        for rate in [30, 60, 120] {
+            let (coarse, times) = run(rate);
+            let case = format!(
+                "EA {stiffness:.0} N, {line:.2} kg/m, {pull:.0} N, {strength:.0} N, {rate} Hz: {times:?} {when:?}"
+            );
+            println!("{case}");
+            assert!(!when.is_empty() && times.len() == when.len(), "{case}");
+            let total = |parts: &[Cable]| parts.iter().map(|p| p.momentum().linear).sum::<Vector3<f64>>();
+            let (one, two) = (total(&coarse), total(&fine));
+            assert!((one - two).norm() < 1e-6 * two.norm(), "{case}: {one} {two}");
+            let apart =
+                (coarse[0].node_position(coarse[0].nodes() - 1) - fine[0].node_position(fine[0].nodes() - 1)).norm();
+            assert!(apart < 1e-6, "{case}: {apart} m");
+            assert!(times.iter().zip(&when).all(|(a, b)| (a - b).abs() < 1e-9), "{case}");
+        }
+    }
+}

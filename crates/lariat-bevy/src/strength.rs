@@ -2,8 +2,9 @@
 
 use bevy_ecs::component::Component;
 
-/// The tension in N above which a cable breaks, compared after each host step; without it nothing
-/// is compared.
+/// The tension in N above which a cable breaks, compared after each integration step; without it
+/// nothing is compared. On bevy_rapier3d, where a host step is one Rapier step, it breaks at the end
+/// of the host step.
 ///
 /// The cable breaks at the inner node nearest to the largest tension. The part behind the break is a
 /// new entity with the same components, and takes the attachments behind the break. A limit that is

@@ -189,6 +189,11 @@ pub(crate) mod step {
     /// Unknown: loads fall asleep and slow ones do not (tests, sleep.rs).
     pub(crate) const STEADY_FORCE_CHANGE: f64 = 2e-3;
 
+    /// Share of a Rapier step that is left at least where it is divided at a break. Derived: the
+    /// shortest step of error control, of which there are 64 in a host step; what a cable passes on
+    /// meanwhile is that of one such step.
+    pub(crate) const SHORTEST_REST: f64 = 1.0 / 64.0;
+
     /// Longest step in s of the integrator that takes over when a budget is spent. Unknown: the
     /// bound of the work counts with it (test no_host_step_exceeds_its_budget).
     pub(crate) const CHEAPEST_STEP: f64 = 1.0 / 240.0;

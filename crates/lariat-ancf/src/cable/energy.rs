@@ -53,7 +53,12 @@ pub struct Momentum {
 impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn energy_in_store(&self) -> f64 {
-        let store = self.system.energy_in_store(&self.snapshot.state);
+        self.energy_in_store_by(&mut <[Vec<f64>; 3]>::default())
+    }
+
+    /// Returns what the method holds beyond the mechanical energy in J, computed in these vectors.
+    pub(crate) fn energy_in_store_by(&self, vectors: &mut [Vec<f64>; 3]) -> f64 {
+        let store = self.system.energy_in_store_by(&self.snapshot.state, vectors);
         if self.model.effects.torsion.is_none() || self.snapshot.state.memory.differences.is_empty() {
             return store;
         }

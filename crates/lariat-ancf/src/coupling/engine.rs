@@ -165,6 +165,10 @@ pub trait Coupling {
     /// included; `None` without a limit.
     fn peak_load(&self) -> Option<Load>;
 
+    /// Returns the time in s at the end of the integration step in which the load first exceeded
+    /// its limit since the cable was compared with it; `None` if it did not.
+    fn overloaded_at(&self) -> Option<f64>;
+
     /// Returns the elastic energy in J that [inserted nodes](Cable::insert_node) have added so far,
     /// those of [cuts](Cable::cut) included: it belongs in an energy balance over such an edit.
     /// Zero with the exact axial rule, or 5 Gauss points and more, and no bending.
@@ -323,6 +327,10 @@ impl Coupling for Cable {
 
     fn peak_load(&self) -> Option<Load> {
         Cable::peak_load(self)
+    }
+
+    fn overloaded_at(&self) -> Option<f64> {
+        self.snapshot.load.exceeded()
     }
 
     fn inserted_energy(&self) -> f64 {

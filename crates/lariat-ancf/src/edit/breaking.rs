@@ -10,11 +10,18 @@
 //! # Validity
 //!
 //! The load is [read](crate::system) after every integration step, and the cable breaks by the
-//! largest load since it was asked last, at the end of a host step usually: [`Break`] says when
-//! within it the limit was exceeded most. What the steps themselves do not resolve they do not see;
+//! largest load since it was asked last: [`Break`] says when that was. Who steps until
+//! [`overloaded_at`](crate::coupling::Coupling::overloaded_at) and breaks it there, as a `CableSet`
+//! of lariat-rapier does, goes on with the parts from the integration step that exceeded the limit.
+//! What the steps themselves do not resolve they do not see;
 //! [`Warning::UnseenLoad`](crate::Warning::UnseenLoad) says where that may have exceeded the limit.
-//! A part keeps the load that it had at the break until the wave of the break, of the speed
-//! sqrt(EA/rho A), has run through: until then that load breaks it no more. Breaking at a node
+//!
+//! A part recoils with the strain energy that it had at the break: the wave of the break, of the
+//! speed sqrt(EA/rho A), runs to and fro in it, and overshoots on a mesh; the part flies past the
+//! end that is held, and snaps taut on the other side. As long as that takes at the speed of this
+//! energy, a load breaks it only if its strain energy is larger, because others do work on it.
+//!
+//! Breaking at a node
 //! changes neither shape nor motion, so mass, momenta and energy of the parts are those of the
 //! whole to rounding ([`Break`]); the strain energy becomes motion in the steps that follow. A
 //! cable of one element has no inner node: [`Cable::set_strength`] refuses it, and a part of one
@@ -32,8 +39,10 @@
 use crate::at::At;
 use crate::cable::Cable;
 use crate::error::Error;
+use crate::scales::cable::{WAVE_PASSES, WAYS_OF_RECOIL};
+use crate::scales::integrate::SINGLE_PRECISION_ROUNDING;
 use crate::section::Element;
-use crate::strength::{Break, BreakCause, Load, LoadRecord, Strength};
+use crate::strength::{Break, BreakCause, Load, LoadRecord, Recoil, Strength};
 
 impl Cable {
     /// Returns what the cable withstands.
@@ -44,7 +53,7 @@ impl Cable {
     /// Sets what the cable withstands: a [`Strength`], or a tension in N. The load is read after
     /// each integration step, and the cable breaks when
     /// [`break_overloaded`](Self::break_overloaded) is called; a `CableSet` of lariat-rapier does
-    /// so after each host step.
+    /// so where the limit is exceeded.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a limit that is not positive, [`Error::OneElement`] for a limit
@@ -72,9 +81,10 @@ impl Cable {
         if !strength.is_limited() {
             return Ok(None);
         }
-        // of what a part has had since its cable broke, only what is its own counts
-        let is_own = |load: &Load| load.share > 1.0 && !self.snapshot.load.is_passing(load);
-        let Some(load) = self.peak_load().filter(is_own).or_else(|| self.snapshot.load.worst().filter(is_own)) else {
+        // those that were noted are no recoils, the present one may be
+        let is_own = |load: &Load| load.share > 1.0 && !(load.time == self.time() && self.is_recoil());
+        let noted = || self.snapshot.load.worst().filter(is_own);
+        let Some(load) = self.peak_load().filter(is_own).or_else(noted) else {
             self.snapshot.load.take();
             return Ok(None);
         };
@@ -83,17 +93,58 @@ impl Cable {
         let Load { cause, tension, damping, strain, time, .. } = load;
         let (mut rest, how) =
             self.part(arc_length, |cable| Break { cause, tension, damping, strain, time, ..cable })?;
-        [self, &mut rest].into_iter().for_each(Cable::know_load);
+        [self, &mut rest].into_iter().for_each(Cable::recoil);
         Ok(Some((rest, how)))
     }
 
-    /// Lets the present load of a part of a cable that broke count no more until the wave of the
-    /// break has run through it.
-    fn know_load(&mut self) {
-        let load = self.reading().largest_load(self.strength());
-        let passing = |e: &Element| e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt();
-        let until = load.time + self.elements().iter().map(passing).sum::<f64>();
-        self.snapshot.load = LoadRecord::of_part(load.share, [load.time, until]);
+    /// Advances a cable by itself by `dt` (s) as [`step`](Self::step) does, and breaks it where its
+    /// load exceeds its limit: the parts go on from the end of that integration step. Returns the
+    /// parts behind the breaks, which are then at the same time. A cable with a limit is copied for
+    /// it, and one that breaks takes the step once more up to the break.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step); the cable is then exactly as before.
+    pub fn step_and_break(&mut self, dt: f64) -> Result<Vec<(Cable, Break)>, Error> {
+        let before = self.strength().is_limited().then(|| self.clone());
+        self.step(dt)?;
+        let Some(before) = before else { return Ok(Vec::new()) };
+        let Some(at) = self.snapshot.load.exceeded() else { return Ok(Vec::new()) };
+        let (mut whole, done) = (before.clone(), (at - before.time()).max(0.0));
+        let parts = whole.break_within(done, dt);
+        *self = if parts.is_ok() { whole } else { before };
+        parts
+    }
+
+    /// Advances by `done` (s), breaks if overloaded, and goes on until `dt` (s).
+    fn break_within(&mut self, done: f64, dt: f64) -> Result<Vec<(Cable, Break)>, Error> {
+        // what rounding leaves is no step
+        let left = if dt - done > SINGLE_PRECISION_ROUNDING * dt { dt - done } else { 0.0 };
+        self.step(done)?;
+        let Some((mut rest, how)) = self.break_overloaded()? else {
+            self.step(left)?;
+            return Ok(Vec::new());
+        };
+        let (before, behind) = (self.step_and_break(left)?, rest.step_and_break(left)?);
+        Ok([(rest, how)].into_iter().chain(before).chain(behind).collect())
+    }
+
+    /// Lets a part of a cable that broke recoil: it breaks no more by that.
+    fn recoil(&mut self) {
+        let energy = self.reading().strain_energy();
+        let of = |f: &dyn Fn(&Element) -> f64| self.elements().iter().map(f).sum::<f64>();
+        let wave = of(&|e| e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt());
+        let mass = of(&|e| e.length * self.model.inertia(e));
+        // one without strain does not fly
+        let flight = if energy > 0.0 { self.length() / (2.0 * energy / mass).sqrt() } else { 0.0 };
+        let from = self.time();
+        let until = from + WAVE_PASSES * wave + WAYS_OF_RECOIL * flight;
+        self.snapshot.load = LoadRecord::of_part(Recoil { energy, from, until });
+    }
+
+    /// Returns whether the present load is a recoil of a break before.
+    fn is_recoil(&self) -> bool {
+        let recoil = self.snapshot.load.recoil(self.time()).filter(|recoil| self.time() > recoil.from);
+        recoil.is_some_and(|recoil| self.reading().strain_energy() <= recoil.energy)
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

@@ -73,13 +73,15 @@ impl Cable {
         };
         let (end, begin) = (6 * node + 6, 6 * node);
         let [at_start, at_end] = self.snapshot.windings;
-        let head_state = Snapshot {
+        let mut head_state = Snapshot {
             state: part(&state.q[..end], &state.v[..end], 0),
             windings: [at_start, None],
             load: LoadRecord::default(),
             prescribed: self.snapshot.prescribed.iter().filter(|led| led.node <= node).copied().collect(),
             ..self.snapshot.clone()
         };
+        // what earlier steps owe of the momenta is restored by this part, and what hangs on it
+        head_state.state.memory.differences.owed = state.memory.differences.owed;
         let windings = [None, at_end];
         let mut tail_state =
             Snapshot { state: part(&state.q[begin..], &state.v[begin..], node), windings, ..Snapshot::default() };

@@ -8,9 +8,13 @@ pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
 /// another word below.
 pub(crate) const LEAST_SIMILARITY: f64 = 0.8;
 
-/// Share by which the mesh may read a known load too high, before the wave of the break comes.
-/// Unknown: what meshes miss of a steady tension.
-pub(crate) const KNOWN: f64 = 0.01;
+/// Number of times for which the wave of a break runs through a part while that recoils. Derived:
+/// the period of a part of which one end is held, after which its tension is back.
+pub(crate) const WAVE_PASSES: f64 = 4.0;
+
+/// Ways in lengths of a part that recoils at the speed of its energy. Derived: it flies past the
+/// end that is held, until it is taut on the other side.
+pub(crate) const WAYS_OF_RECOIL: f64 = 2.0;
 
 /// Depth between samples as a multiple of that at the deepest of them. Unknown: parabolas through
 /// two samples and a summit.

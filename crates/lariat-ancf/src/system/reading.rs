@@ -122,6 +122,12 @@ impl<'a> Reading<'a> {
         Some(NodeTension { missing, jump: (before.tension - behind.tension).abs() })
     }
 
+    /// Returns the strain energy in J.
+    pub fn strain_energy(&self) -> f64 {
+        let (axial, bending) = self.system.forces.strain_energy(self.q);
+        axial + bending
+    }
+
     /// Returns the load that is the largest share of its limit, read at both ends of every element.
     pub fn largest_load(&self, strength: Strength) -> Load {
         let elements = &self.model.elements;
@@ -164,7 +170,10 @@ impl Equations<'_> {
             return;
         }
         self.diagnostics.load_readings += self.model.elements.len() as u64;
-        let load = Reading { model: self.model, system: self.system, q, v, time }.largest_load(strength);
-        self.system.load.note(load);
+        let reading = Reading { model: self.model, system: self.system, q, v, time };
+        let load = reading.largest_load(strength);
+        let recoil = self.system.load.recoil(time).filter(|_| load.share > 1.0);
+        let is_recoil = recoil.is_some_and(|recoil| reading.strain_energy() <= recoil.energy);
+        self.system.load.note(load, is_recoil);
     }
 }

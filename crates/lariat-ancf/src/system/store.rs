@@ -15,27 +15,29 @@ use crate::one_leg::OneLeg;
 use crate::state::State;
 
 impl System {
-    /// Returns S of the last step in J.
-    pub fn energy_in_store(&self, state: &State) -> f64 {
+    /// Returns S of the last step in J, computed in these vectors.
+    pub fn energy_in_store_by(&self, state: &State, [still, buffer, before]: &mut [Vec<f64>; 3]) -> f64 {
         let (q, differences) = (&state.q, &state.memory.differences);
         if differences.is_empty() {
             return 0.0;
         }
-        let still = vec![0.0; q.len()];
-        let mut buffer = still.clone();
-        let mut before = differences.displacement.clone();
-        self.feeds.shift_eyes_before(q, &mut before);
+        for vector in [&mut *still, &mut *buffer] {
+            vector.clear();
+            vector.resize(q.len(), 0.0);
+        }
+        before.clone_from(&differences.displacement);
+        self.feeds.shift_eyes_before(q, before);
         let step = CoordinateStep {
             start: q,
-            change: &still,
-            before: &before,
+            change: still,
+            before,
             kept: 1.0,
             linearised: &[],
             h: 1.0,
             leg: OneLeg::new(differences.dissipation),
             near: false,
         };
-        let elastic = self.forces.elements.add_discrete_gradient(self.level, None, step, &mut buffer).numerical;
-        elastic + 0.5 * differences.dissipation * self.mass_square(&differences.velocity, &mut buffer)
+        let elastic = self.forces.elements.add_discrete_gradient(self.level, None, step, buffer).numerical;
+        elastic + 0.5 * differences.dissipation * self.mass_square(&differences.velocity, buffer)
     }
 }

@@ -18,6 +18,10 @@ pub struct EnergyLaw {
     /// where the errors of many steps within a tolerance had made half a per cent of the energy;
     /// never falls.
     pub rescaled: f64,
+    /// What a step that is shorter than the one before it, as where a step was divided, does not
+    /// take up of the energy [in the store](crate::coupling::Coupling::energy_in_store), or one of
+    /// less dissipation; never falls.
+    pub shortened: f64,
     /// Work of supports that move.
     pub supports: f64,
     /// Work of point loads.
@@ -60,6 +64,7 @@ impl EnergyLaw {
     pub(crate) fn merge(&mut self, other: &EnergyLaw) {
         self.numerical += other.numerical;
         self.rescaled += other.rescaled;
+        self.shortened += other.shortened;
         self.supports += other.supports;
         self.loads += other.loads;
         self.contacts += other.contacts;
@@ -71,8 +76,9 @@ impl EnergyLaw {
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 10] {
-        let EnergyLaw { numerical, rescaled, supports, loads, contacts, impacts, uncertain, .. } = *self;
-        [numerical, rescaled, supports, loads, contacts, impacts, uncertain, self.obstacles, self.residual, self.made]
+    pub(crate) fn terms(&self) -> [f64; 11] {
+        let EnergyLaw { numerical, rescaled, shortened, supports, loads, contacts, .. } = *self;
+        let EnergyLaw { impacts, uncertain, obstacles, residual, made, .. } = *self;
+        [numerical, rescaled, shortened, supports, loads, contacts, impacts, uncertain, obstacles, residual, made]
     }
 }

@@ -26,7 +26,7 @@ impl CableTerms {
         CableTerms {
             dissipated,
             work: of_effects + law.loads + law.supports + cable.inserted_energy() + reels,
-            by_law: law.residual - law.numerical - law.rescaled,
+            by_law: law.residual - law.numerical - law.rescaled - law.shortened,
             uncertain: law.uncertain,
             ..CableTerms::default()
         }

@@ -229,16 +229,16 @@ impl PrescribedMotions {
         }
     }
 
-    /// Begins Rapier step `done` of `steps`: where each body is and will be; sets the poses of
-    /// those that the user moves to one.
-    pub fn advance(&mut self, records: &mut Records, world: &mut PhysicsWorld, done: u32, steps: u32) {
+    /// Begins the Rapier step from one share of the host step to another: where each body is and
+    /// will be; sets the poses of those that the user moves to one.
+    pub fn advance(&mut self, records: &mut Records, world: &mut PhysicsWorld, (from, to): (f64, f64)) {
         let h = f64::from(world.integration_parameters.dt);
         for motion in &mut self.0 {
             if !world.bodies.contains(motion.handle) {
                 continue;
             }
             motion.step = if motion.by_pose {
-                [done - 1, done].map(|done| motion.at(f64::from(done) / f64::from(steps)).0)
+                [from, to].map(|share| motion.at(share).0)
             } else if world.bodies[motion.handle].is_enabled() {
                 let start = records.place(world, motion.handle);
                 [start, moved_by_velocity(world, motion.handle, start, h)]

@@ -1,12 +1,8 @@
 //! Cables that break where they are overloaded.
 //!
 //! # Validity
-//! Broken at the end of a host step, by the largest load of its integration steps. Until then the
-//! whole cable goes on: bodies that it holds get at most the impulse of its tension over what is
-//! left of the host step more.
-//!
-//! # Alternatives considered
-//! What was tried, and what it gave: docs/decisions/rapier.md.
+//! Broken between two steps of Rapier, by the largest load of its integration steps; where within
+//! a host step: [`breaks`](crate::step).
 
 use super::part::part;
 use crate::contents::Contents;

@@ -137,8 +137,11 @@ impl CableSet {
     }
 
     /// Sets what a cable withstands: a [`Strength`] or a tension in N, compared with the load after
-    /// each integration step: it breaks at the end of the host step; `None` and it does not break.
-    /// It breaks at the inner node nearest to its largest load. The event is
+    /// each integration step, at whose end it breaks; `None` and it does not break. It breaks at
+    /// the inner node nearest to its largest load, and the host step goes on with the parts, in
+    /// another Rapier step: where
+    /// [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps) allows no more of them, it
+    /// breaks at the end of the last. The event is
     /// [`Event::Broken`](crate::Event::Broken); the parts have the same strength. A sleeping cable
     /// sleeps on unless it breaks.
     ///

@@ -4,7 +4,7 @@
 //!
 //! | file | per Rapier step |
 //! |---|---|
-//! | [`substepping`] | how many Rapier steps the host step has |
+//! | [`mod@host_step`], [`substepping`] | the Rapier steps of a host step, and how many it has |
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
@@ -19,15 +19,18 @@
 //! | [`kinematic_ends`] | ends of cables on fixed and kinematic bodies |
 //! | [`groups`], [`mechanism`](crate::mechanism) | bodies on joints |
 //! | [`sleep`], [`waking`] | bodies that rest, and those that Rapier's step woke |
+//! | [`breaks`] | when a cable breaks within a Rapier step |
 //! | [`reels`] | attachments and junctions of cables whose nodes move along them |
 //! | [`budget`], [`settings`] | what a host step may cost, and how a set steps |
 //! | [`energy`] | the energy balance of watched cables |
 //! | [`refused`] | bodies of an island that cannot step |
 
 pub(crate) mod apply;
+mod breaks;
 pub(crate) mod budget;
 pub(crate) mod energy;
 pub(crate) mod groups;
+mod host_step;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
@@ -47,13 +50,14 @@ use crate::body::prescribed_motion::PrescribedMotions;
 use crate::body::proximity;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
-use crate::edit::attach;
+use crate::edit::{attach, breaking};
 use crate::error::{Error, Failure};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
 use crate::scales::step::MAX_TURN_ERROR;
 use budget::Remaining;
+pub use host_step::HostStep;
 use lariat_ancf::Snapshot;
 use lariat_ancf::coupling::Coupling;
 use prediction::{Prediction, StepParameters};
@@ -61,35 +65,6 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Real;
 use rapier::pipeline::PhysicsWorld;
 use settings::Settings;
-
-/// A host step in progress; see [`CableSet::begin`](crate::CableSet::begin).
-#[derive(Clone, Debug)]
-pub struct HostStep {
-    dt: Real,
-    /// Rapier steps in total, and those done.
-    steps: u32,
-    done: u32,
-    failed: bool,
-    motions: PrescribedMotions,
-}
-
-impl HostStep {
-    /// Returns whether Rapier steps are left.
-    pub fn is_unfinished(&self) -> bool {
-        !self.failed && self.done < self.steps
-    }
-
-    /// Returns whether all Rapier steps are done.
-    pub(crate) fn is_complete(&self) -> bool {
-        !self.failed && self.done == self.steps && self.dt > 0.0
-    }
-
-    /// Returns whether the host step failed as a whole: Rapier must not step. An island that cannot
-    /// step does not count: see [`CableSet::failures`](crate::CableSet::failures).
-    pub fn has_failed(&self) -> bool {
-        self.failed
-    }
-}
 
 /// Buffers and events of the steps of a set. Nothing in them is state.
 #[derive(Clone, Debug, Default)]
@@ -122,7 +97,7 @@ pub(crate) fn begin(
     if !(dt.is_finite() && dt >= 0.0) {
         return Err(Error::TimeStep { dt: f64::from(dt) });
     }
-    let mut host = HostStep { dt, steps: 1, done: 0, failed: false, motions: PrescribedMotions::default() };
+    let mut host = HostStep::new(dt);
     if dt > 0.0 {
         stepper.events.clear();
         stepper.failures.clear();
@@ -155,23 +130,31 @@ pub(crate) fn predict_next(
         return Ok(());
     }
     if host.done > 0 {
+        breaking::break_overloaded(contents, &mut stepper.events);
         split_finer(contents, world, settings, host);
     }
-    host.done += 1;
+    host.advance();
     if host.dt == 0.0 {
         return Ok(());
     }
     reels::remesh(contents)?;
     loop {
-        host.motions.advance(&mut contents.records, world, host.done, host.steps);
+        world.integration_parameters.dt = host.lengths().1;
+        host.motions.advance(&mut contents.records, world, host.share());
         let outcome = predict_islands(stepper, contents, world, settings, host);
         host.failed = outcome.is_err();
-        let parts = outcome?;
-        if parts == 1 {
-            return Ok(());
+        match outcome? {
+            Predicted::Whole => return Ok(()),
+            Predicted::Turned(parts) => host.refine(parts),
+            Predicted::Overloaded(at) if at > 0.0 => host.divide(at),
+            Predicted::Overloaded(_) => {
+                host.begin_broken();
+                breaking::break_overloaded(contents, &mut stepper.events);
+            }
         }
-        (host.steps, host.done) = (host.steps * parts, (host.done - 1) * parts + 1);
-        world.integration_parameters.dt = host.dt / host.steps as Real;
+        if host.rapier_steps() > 1 {
+            host.motions.add_others(&contents.records, world, f64::from(host.dt));
+        }
     }
 }
 
@@ -180,9 +163,8 @@ fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Setting
     let max = settings.most_rapier_steps(f64::from(host.dt)) / host.steps;
     let needed = substepping::count(contents, world, settings, f64::from(host.dt));
     let finer = needed.div_ceil(host.steps).min(max);
-    if finer > 1 {
+    if finer > 1 && !host.is_divided() {
         (host.steps, host.done) = (host.steps * finer, host.done * finer);
-        world.integration_parameters.dt = host.dt / host.steps as Real;
     }
 }
 
@@ -197,15 +179,23 @@ pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut
     stepper.motions = host.motions;
 }
 
-/// Predicts the next Rapier step of all islands. Returns 1, or into how many parts it is to be
-/// divided and predicted anew.
+/// What the prediction of a Rapier step gave; all but the first is reverted, to be predicted anew.
+enum Predicted {
+    Whole,
+    /// A mechanism turned so much that it is to be divided into equal parts.
+    Turned(u32),
+    /// A cable exceeded its limit at a share of it.
+    Overloaded(f64),
+}
+
+/// Predicts the next Rapier step of all islands.
 fn predict_islands(
     stepper: &mut Stepper,
     contents: &mut Contents,
     world: &mut PhysicsWorld,
     settings: &Settings,
     host: &HostStep,
-) -> Result<u32, Error> {
+) -> Result<Predicted, Error> {
     if core::mem::take(&mut stepper.pending) {
         // predicted, and never reconciled
         for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
@@ -232,11 +222,13 @@ fn predict_islands(
             let moved = predictions.get(island).filter(|p| !p.refused && p.error.is_none())?;
             moved.snapshots.get(cable).map(Snapshot::positions)
         };
-        if !finder.neighbours.complete(contents, &islands.list, before) && parts == 1 {
+        let met = finder.neighbours.complete(contents, &islands.list, before);
+        let overload = breaks::first_overload(contents, &islands.list, predictions, (settings, host), step.h);
+        if !met && parts == 1 && overload.is_none() {
             break step;
         }
-        // a mechanism turned otherwise, or cables met that were not expected to: they are united,
-        // and the step begins anew
+        // a mechanism turned otherwise, a cable broke, or cables met that were not expected to:
+        // they are united, and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
@@ -245,7 +237,10 @@ fn predict_islands(
             }
         }
         if parts > 1 {
-            return Ok(parts);
+            return Ok(Predicted::Turned(parts));
+        }
+        if let Some(at) = overload.filter(|_| !met) {
+            return Ok(Predicted::Overloaded(at));
         }
     };
     let Stepper { islands, predictions, events, failures, .. } = &mut *stepper;
@@ -279,7 +274,7 @@ fn predict_islands(
         }
     }
     stepper.pending = true;
-    Ok(1)
+    Ok(Predicted::Whole)
 }
 
 /// Finds the islands of a Rapier step, and begins the prediction of all.
@@ -299,8 +294,9 @@ fn prepare_islands(
     let needs_speeds = stepper.islands.list.iter().any(|island| island.bodies().any(is_awake));
     let step = StepParameters {
         h: f64::from(world.integration_parameters.dt),
+        host: f64::from(host.lengths().0) * f64::from(host.steps),
         rapier_steps: host.steps,
-        share: (f64::from(host.done - 1) / f64::from(host.steps), f64::from(host.done) / f64::from(host.steps)),
+        share: host.share(),
         fastest: if needs_speeds { proximity::fastest(world) } else { 0.0 },
         sleep_speed: settings.sleep_speed,
     };
@@ -329,8 +325,7 @@ fn prepare_island(
 ) -> Result<(), Error> {
     contents.align_clocks(&island.cables)?;
     if step.share.0 == 0.0 {
-        let host = step.h * f64::from(step.rapier_steps);
-        contents.for_cables(&island.cables, |_, cable| cable.plan_reels(host));
+        contents.for_cables(&island.cables, |_, cable| cable.plan_reels(step.host));
     }
     prediction.snapshots.resize_with(island.cables.len(), Snapshot::default);
     let snapshots = &mut prediction.snapshots;

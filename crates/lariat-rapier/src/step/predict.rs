@@ -243,7 +243,7 @@ fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> In
     if all().all(|i| i == first) {
         return first;
     }
-    let host = step.h * f64::from(step.rapier_steps);
+    let host = step.host;
     let fineness = |i: &Integrator| match i.control {
         StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => (tolerance, 0.0),
         StepControl::Substeps(count) => (f64::INFINITY, host / f64::from(count)),

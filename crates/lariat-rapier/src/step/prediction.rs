@@ -19,7 +19,9 @@ use rapier::math::{AngVector, Vector};
 pub(crate) struct StepParameters {
     /// Time step in s.
     pub h: f64,
-    /// Number of equal Rapier steps of the host step.
+    /// Length of the host step in s.
+    pub host: f64,
+    /// Number of equal pieces of the host step, each of which is one Rapier step, or more.
     pub rapier_steps: u32,
     /// Share of the host step at which it begins and ends, 0 to 1.
     pub share: (f64, f64),

@@ -101,7 +101,7 @@ impl World {
             terms.unknown |= cable.has_reel() && cable.effects().contact.is_some();
             winds |= cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
-            by_law += law.residual - law.numerical - law.rescaled;
+            by_law += law.residual - law.numerical - law.rescaled - law.shortened;
             all_by_law &= cable.integrator().method.uses_discrete_gradients();
         }
         if let Some(physics) = &self.physics {

@@ -7,8 +7,8 @@ use crate::schema::{Choose, Default, Key, Kind, NOT_NEGATIVE, POSITION, POSITIVE
 use lariat_ancf::Strength;
 
 table! {
-    /// When a cable becomes two: above a tension or strain, compared at host times, at the inner node nearest to the largest load; or by
-    /// a cut. Attachments, loads, effects and probes stay with their part; both parts keep the limits.
+    /// When a cable becomes two: above a tension or strain, compared after each integration step, at the inner node nearest to the
+    /// largest load; or by a cut. Attachments, loads, effects and probes stay with their part; both parts keep the limits.
     struct BreakTable("[cable.break]") {
         /// Largest tension, without that of damping.
         tension: Option<f64> = ("no limit"), Kind::Number(POSITIVE), "N";

@@ -265,6 +265,23 @@ impl BodyStep {
         self.h * (v + self.rotation * spin.cross(&anchor)).norm()
     }
 
+    /// Returns what the step does not take up of the changes of the one before, so that half its
+    /// square is the energy lost.
+    pub fn change_shortened(&self) -> Vector6<f64> {
+        let share = self.leg.share_held(self.last.dissipation, self.kept);
+        if share < 1.0 && !self.is_driven() {
+            self.last.change * (self.last.dissipation * (1.0 - share)).sqrt()
+        } else {
+            Vector6::zeros()
+        }
+    }
+
+    /// Returns the energy in J of the store that the step does not take up.
+    pub fn energy_shortened(&self) -> f64 {
+        let change = self.change_shortened();
+        0.5 * change.dot(&(self.matrix * change))
+    }
+
     /// Returns whether impacts changed its velocity in the step.
     pub fn is_hit(&self) -> bool {
         self.taken != Vector6::zeros() || self.landed != Vector6::zeros()

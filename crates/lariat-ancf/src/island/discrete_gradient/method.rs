@@ -86,10 +86,13 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn accept(&mut self, balance: Balance) {
         self.buffers.unsteady = self.has_impact();
+        let shortened = self.energy_shortened();
         Terms::accept(self);
         let balance = self.restore_momenta(balance);
         // the law is that of the whole: the first cable keeps it
-        self.cables[0].system.meter.law.add(&balance);
+        let law = &mut self.cables[0].system.meter.law;
+        law.add(&balance);
+        law.shortened += shortened;
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, .. } = cable.step_parts();
             equations.note_load(state.time, &state.q, &state.v);

@@ -36,6 +36,7 @@ mod rescale;
 mod rigid;
 mod rounds;
 mod solve;
+mod store;
 mod terms;
 mod torsion;
 mod twists;
@@ -83,6 +84,8 @@ pub(super) struct StepBuffers {
     pub unknowns: Unknowns,
     /// What restores the momenta after the step, if that is known when it ends.
     restoration: Option<Restoration>,
+    /// To compute what steps hold.
+    of_store: [Vec<f64>; 3],
     /// Share of the motion that may be owed after it.
     may_owe: f64,
     /// Whether velocities jumped at the end of the last step.
