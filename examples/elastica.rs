@@ -22,13 +22,7 @@ fn tip(force: Vector3<f64>, moment: Vector3<f64>) -> Result<Vector3<f64>, lariat
     for part in 1..=4 {
         beam.clear_loads();
         let share = f64::from(part) / 4.0;
-        beam.add_load(PointLoad {
-            arc_length: 1.0,
-            force: force * share,
-            moment: moment * share,
-            ramp: 0.0,
-            start: 0.0,
-        })?;
+        beam.add_load(PointLoad { moment: moment * share, ..PointLoad::force(1.0, force * share) })?;
         beam.equilibrium()?;
     }
     Ok(beam.sample(1.0)?.position)

@@ -77,7 +77,7 @@ impl Description {
         } else {
             builder.build()?
         };
-        loads.iter().try_for_each(|load| cable.add_load(*load))?;
+        loads.iter().try_for_each(|load| cable.add_load(load.clone()))?;
         Ok(cable)
     }
 

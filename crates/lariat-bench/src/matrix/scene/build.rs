@@ -85,7 +85,7 @@ impl Scene {
 
     fn add_one(&mut self, draft: &Draft, elements: usize) -> Result<(CableHandle, CableHandle), Fault> {
         let rope = self.add_rope(draft, draft.points(), elements)?;
-        if let Some(load) = draft.load {
+        if let Some(load) = draft.load.clone() {
             self.set.get_mut(rope)?.add_load(load)?;
         }
         Ok((rope, rope))
@@ -104,7 +104,7 @@ impl Scene {
         let last = self.add_rope(draft, last, elements.div_ceil(2).max(3))?;
         self.set.attach_here(&self.physics, first, At::End, block, AttachmentKind::Ball)?;
         self.set.attach_here(&self.physics, last, At::Start, block, AttachmentKind::Ball)?;
-        if let Some(load) = draft.load {
+        if let Some(load) = draft.load.clone() {
             let length = self.set.get(last)?.length();
             let load = lariat_ancf::PointLoad { arc_length: load.arc_length / LENGTH * length, ..load };
             self.set.get_mut(last)?.add_load(load)?;
