@@ -117,7 +117,7 @@ fn the_moment_at_a_load_is_that_of_a_beam_under_tension() {
         let middle = 0.5 * span.length / (1.0 + span.tension / span.axial);
         let load = PointLoad::force(middle, [0.0, -force, 0.0]);
         let builder = span.builder(elements).fix(At::Start).fix(At::End).finest(finest, [At::ArcLength(middle)]);
-        let cable = settled(builder.load(load));
+        let cable = settled(builder.load(load.clone()));
         let tension = cable.sample(0.25 * cable.length()).unwrap().tension;
         let k = (tension / span.bending).sqrt();
         let expected = force / (2.0 * k) * (0.5 * k * span.length).tanh();
