@@ -4,14 +4,39 @@
 //!
 //! ```text
 //! p(d) = k d^2/(2 delta) below delta, k (d - delta/2) above, 0 outside          N/m, delta = r/50
-//! t = u0 + s;  k_t |t| <= c: u = t, else u = c/k_t t/|t|;   f = -k_t u           k_t = k w/10
+//! t = k_t (u0 + s) + r s;  |t| <= c: f = -t, else f = -c t/|t|;   u = (r u0 - f)/(k_t + r)     k_t = k w/10
+//! r = 10 w sqrt(k m/10)/h
 //! ```
 //!
-//! c is the bound of friction. The tangents `-df/ds` are `k_t P` while it sticks and `c k_t/|k_t t|
-//! (P - e e^T)` while it slips: both positive semi-definite.
+//! s is the slip of a step of length h, c the bound of friction, m the mass per length. The spring
+//! u has a damper beside it, of five times the critical damping of what it carries: the same part
+//! as that of the [normal law](super::rebound). The cone bounds the sum of both. So a load that is
+//! put on at once stretches the spring to its own force, and not to twice that, which would slip.
+//! Where it slips steadily, or rests, u does not change, and the force is that of Coulomb's law.
+//! The tangents `-df/ds` are `(k_t + r) P` while it sticks and `c (k_t + r)/|t| (P - e e^T)`, e =
+//! t/|t|, while it slips: both positive semi-definite.
+//!
+//! # Energy
+//!
+//! With `-f = k_t u + r D u` and what slips, `s - D u = (t + f)/(k_t + r)`, along -f,
+//!
+//! ```text
+//! -f . s = D (k_t u^2/2) + k_t D u^2/2 + r D u^2 - f . (s - D u)
+//! ```
+//!
+//! of which all but the first term is lost, and at least zero, for any bound.
+//!
+//! # Validity
+//!
+//! The mass is that of the cable alone: under a heavier body, which rides on it, the spring is
+//! damped by less, in the root of the masses.
+//!
+//! # References
+//!
+//! Simo & Hughes, Computational Inelasticity, 1998, section 1.7 (return mapping with viscosity).
 
 use crate::effect::Contact;
-use crate::scales::contact::{RAMP, TANGENTIAL};
+use crate::scales::contact::{RAMP, RISE, TANGENTIAL};
 use crate::section::Section;
 use nalgebra::{Matrix3, Vector3};
 
@@ -91,41 +116,63 @@ impl NormalLaw {
 /// Friction over a step.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::contact) struct Friction {
+    /// Force in N on what is beneath, that of spring and damper.
+    pub force: Vector3<f64>,
     /// Spring at the end in m.
     pub spring: Vector3<f64>,
-    /// Stiffness k_t in N/m.
-    pub stiffness: f64,
     /// Direction in which it slips.
     pub slides: Option<Vector3<f64>>,
-    /// Share `c/(k_t |t|)` of the trial force that is left; 1 while it sticks.
+    /// Share of the trial force that is left; 1 while it sticks.
     share: f64,
+    /// Stiffness in N/m of spring and damper in the step.
+    stiffness: f64,
     /// Energy in J that it loses.
     pub loss: f64,
 }
 
-/// Returns friction with the bound `bound` (N) on a surface with the unit normal `normal`, for a
-/// contact of the normal stiffness `stiffness` (N/m); `before` is the spring at the beginning (m),
-/// `slip` the motion beside the surface. With `sticks` the bound is ignored.
+/// What friction is made of in a step.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::contact) struct Stick {
+    /// Stiffness in N/m of the contact along its normal.
+    pub stiffness: f64,
+    /// Damping over the length of the step, r in N/m.
+    pub damping: f64,
+    /// Largest friction in N.
+    pub bound: f64,
+    /// Whether that is ignored.
+    pub sticks: bool,
+}
+
+/// Returns the damping per length in N s/m^2 beside the spring of friction, for a contact of the
+/// normal stiffness `stiffness` (N/m^2) and a mass per length (kg/m).
+pub(in crate::contact) fn stick_damping(stiffness: f64, mass: f64) -> f64 {
+    (TANGENTIAL * stiffness * mass).sqrt() / RISE
+}
+
+/// Returns friction on a surface with the unit normal `normal`; `before` is the spring at the
+/// beginning (m), `slip` the motion beside the surface.
 #[inline]
 pub(in crate::contact) fn friction(
-    stiffness: f64,
-    bound: f64,
+    stick: &Stick,
     normal: &Vector3<f64>,
     before: &Vector3<f64>,
     slip: &Vector3<f64>,
-    sticks: bool,
 ) -> Friction {
-    let k = TANGENTIAL * stiffness;
+    let k = TANGENTIAL * stick.stiffness;
+    let stiffness = k + stick.damping;
     let tangential = |x: &Vector3<f64>| x - normal * normal.dot(x);
-    let (slip, trial) = (tangential(slip), tangential(&(before + slip)));
-    let (spring, share, slides) = if k * k * trial.norm_squared() <= bound * bound || sticks {
-        (trial, 1.0, None)
+    let (slip, start) = (tangential(slip), tangential(before));
+    let trial = start * k + slip * stiffness;
+    let (share, slides) = if trial.norm_squared() <= stick.bound * stick.bound || stick.sticks {
+        (1.0, None)
     } else {
-        let size = k * trial.norm();
-        (trial * (bound / size), bound / size, Some(trial * (k / size)))
+        let size = trial.norm();
+        (stick.bound / size, Some(trial / size))
     };
-    let loss = k * (spring.dot(&slip) - 0.5 * (spring.norm_squared() - before.norm_squared()));
-    Friction { spring, stiffness: k, slides, share, loss }
+    let force = trial * share;
+    let spring = (force + start * stick.damping) / stiffness;
+    let loss = force.dot(&slip) - 0.5 * k * (spring.norm_squared() - before.norm_squared());
+    Friction { force, spring, slides, share, stiffness, loss }
 }
 
 impl Friction {
@@ -168,7 +215,7 @@ mod tests {
     }
 
     /// The tangents of stick and slip are the derivatives of the force, friction stays within its
-    /// bound, and it loses energy for any bound and any slip.
+    /// bound, and it loses energy for any bound, damping and slip.
     ///
     /// *Source.* Central differences; the definition.
     #[test]
@@ -176,17 +223,21 @@ mod tests {
         let (k, normal) = (1e6, Vector3::new(0.0, 0.6, 0.8));
         let before = Vector3::new(1e-5, 2e-5, -1.5e-5);
         let sign = |i: usize, k: u32| if (i >> k) & 1 == 1 { 1.0 } else { -1.0 };
-        for bound in [0.0, 0.3, 5.0, 1e3] {
+        for (bound, damping) in [0.0, 0.3, 5.0, 1e3].into_iter().flat_map(|b| [0.0, 3e4, 3e6].map(|d| (b, d))) {
             for i in 0..8 {
                 let slip = 3e-5 * Vector3::new(sign(i, 0), 0.8 * sign(i, 1), 0.3 * sign(i, 2));
-                let at = |slip: &Vector3<f64>| friction(k, bound, &normal, &before, slip, false);
+                let stick = Stick { stiffness: k, damping, bound, sticks: false };
+                let at = |slip: &Vector3<f64>| friction(&stick, &normal, &before, slip);
                 let f = at(&slip);
-                assert!(f.loss >= -1e-18, "{bound} {slip:?} {}", f.loss);
-                assert!(f.stiffness * f.spring.norm() <= bound * (1.0 + 1e-12) || f.slides.is_none());
+                assert!(f.loss >= -1e-18, "{bound} {damping} {slip:?} {}", f.loss);
+                assert!(f.force.norm() <= bound * (1.0 + 1e-12));
+                let stored = spring_energy(k, &f.spring) - spring_energy(k, &before);
+                assert!((f.force.dot(&slip) - stored - f.loss).abs() < 1e-12, "{bound} {damping} {slip:?}");
                 for c in 0..3 {
                     let d = 1e-9 * Vector3::ith(c, 1.0);
-                    let slope = (at(&(slip + d)).spring - at(&(slip - d)).spring) * (f.stiffness / 2e-9);
-                    assert!((slope - f.tangent(&normal).column(c)).norm() < 1e-4 * f.stiffness, "{bound} {slip:?}");
+                    let slope = (at(&(slip + d)).force - at(&(slip - d)).force) / 2e-9;
+                    let stiffness = TANGENTIAL * k + damping;
+                    assert!((slope - f.tangent(&normal).column(c)).norm() < 1e-4 * stiffness, "{bound} {slip:?}");
                 }
             }
         }

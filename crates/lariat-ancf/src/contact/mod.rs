@@ -10,8 +10,7 @@
 //! ```text
 //! normal     f_n = -W'(g1) gbar                        gbar . (y1 - y0) = g1 - g0 exactly          (patch.rs)
 //!            less where it opens faster than restitution leaves                                    (rebound.rs)
-//! friction   u' = P u0 + P (y1 - y0),  |k_t u'| <= mu N: u1 = u', else u1 = mu N/k_t u'/|u'|       (law.rs)
-//!            f_t = -k_t u1
+//! friction   f_t = -t,  t = k_t P u0 + (k_t + r) P (y1 - y0),  |t| <= mu N, else -mu N t/|t|       (law.rs)
 //! ```
 //!
 //! y is the place relative to the obstacle (path.rs says what that is for one that turns), N the

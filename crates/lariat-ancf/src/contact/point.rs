@@ -3,7 +3,7 @@
 use super::evaluation::{Between, Evaluation, Row};
 use super::glide::Glide;
 use super::impulse::Impact;
-use super::law::{NormalLaw, friction, spring_energy};
+use super::law::{NormalLaw, Stick, friction, spring_energy, stick_damping};
 use super::linear::{About, Linear, Roll, Tangents};
 use super::path::ObstacleStep;
 use super::rebound::{Push, Rebound, is_resolved, thrown};
@@ -259,8 +259,10 @@ impl ContactPoint {
         if self.friction > 0.0 {
             let is_constant = gap.mean == gap.normal;
             let mean = if is_constant { gap.mean } else { gap.mean.try_normalize(0.0).unwrap_or(gap.normal) };
-            let friction = friction(stiffness, self.bound, &mean, &u0, &slip, about.sticks);
-            out.friction = friction.spring * -friction.stiffness;
+            let damping = self.weight * stick_damping(self.law.stiffness, self.mass) / obstacle.h;
+            let stick = Stick { stiffness, damping, bound: self.bound, sticks: about.sticks };
+            let friction = friction(&stick, &mean, &u0, &slip);
+            out.friction = -friction.force;
             out.force += out.friction;
             if let Some(tangents) = tangents {
                 tangents.friction = friction.tangent(&mean);

@@ -11,6 +11,7 @@ mod energy;
 mod features;
 mod first_touch;
 mod floor;
+mod hooks;
 mod pairs;
 mod restitution;
 mod search;

@@ -53,6 +53,17 @@ impl<'a> Piece<'a> {
         Piece { strand, element, length: section.length, chords }
     }
 
+    /// Returns the local coordinates of the ends of a chord.
+    pub fn ends_of(&self, chord: usize) -> [f64; 2] {
+        [chord, chord + 1].map(|end| end as f64 / self.chords as f64)
+    }
+
+    /// Returns whether a local coordinate is that of a tip of the cable.
+    pub fn is_tip(&self, xi: f64) -> bool {
+        let model = self.strand.model;
+        xi <= 0.0 && model.begins_contact(self.element) || xi >= 1.0 && model.ends_contact(self.element)
+    }
+
     /// Returns the place and its change over the step.
     pub fn place(&self, xi: f64) -> [Vector3<f64>; 2] {
         let shape = shape::position(xi, self.length);
@@ -105,10 +116,20 @@ pub(super) fn closest([a0, a1]: [Vector3<f64>; 2], [b0, b1]: [Vector3<f64>; 2]) 
 /// Returns the closest points of two curves as local coordinates, from those of chords; the first
 /// stays within its chord, the second within its element.
 pub(super) fn refine(a: &Piece<'_>, chord: usize, b: &Piece<'_>, from: [f64; 2], share: f64) -> [f64; 2] {
+    refine_within(a, (chord, a.ends_of(chord)), b, from, share)
+}
+
+/// Returns the closest points of two curves as local coordinates, from others; the first stays
+/// within limits, the second within its element.
+pub(super) fn refine_within(
+    a: &Piece<'_>,
+    (chord, [low, high]): (usize, [f64; 2]),
+    b: &Piece<'_>,
+    from: [f64; 2],
+    share: f64,
+) -> [f64; 2] {
     let [mut x, mut y] = from;
-    let n = a.chords as f64;
-    let (low, high) = (chord as f64 / n, (chord + 1) as f64 / n);
-    let middle = 0.5 * (low + high);
+    let middle = 0.5 * a.ends_of(chord).iter().sum::<f64>();
     let is_last = b.strand.model.ends_contact(b.element);
     let (first, last) =
         (if b.strand.model.begins_contact(b.element) { 0.0 } else { -1.0 }, if is_last { 1.0 } else { 2.0 });

@@ -3,8 +3,11 @@
 use super::super::path::{BodyPath, ObstacleStep};
 use super::super::point::ContactPoint;
 use super::Strand;
-use crate::element::shape::combine;
-use crate::obstacle::Mount;
+use super::chords::Piece;
+use super::passage::Passage;
+use super::search::Candidate;
+use crate::element::shape::{self, combine};
+use crate::obstacle::{Mount, Patch};
 use crate::scales::contact::ROLLING;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
@@ -16,6 +19,8 @@ pub(super) struct End {
     pub element: usize,
     /// Chord of the element.
     pub chord: usize,
+    /// Local coordinate in the element.
+    pub xi: f64,
     /// Shape functions, and their derivatives by arc length.
     pub shape: [f64; 4],
     pub slope: [f64; 4],
@@ -27,6 +32,10 @@ pub(super) struct End {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PairPoint {
     pub ends: [End; 2],
+    /// Arc lengths in m of the closest points when the step begins.
+    pub from: [f64; 2],
+    /// Sum of the radii in m.
+    pub reach: f64,
     pub point: ContactPoint,
     /// Tangents at the beginning.
     pub tangents: [Vector3<f64>; 2],
@@ -46,9 +55,44 @@ pub(super) fn frame(half: Vector3<f64>, h: f64) -> ObstacleStep {
 }
 
 impl PairPoint {
-    pub fn new(ends: [End; 2], point: ContactPoint, tangents: [Vector3<f64>; 2], h: f64) -> Self {
+    /// Returns that of a candidate, which is to be put to its places; `from` are arc lengths in m
+    /// of the closest points when the step begins.
+    pub fn new(candidate: &Candidate, from: [f64; 2], point: ContactPoint, h: f64) -> Self {
+        let ends = [0, 1].map(|k| End {
+            strand: candidate.strands[k],
+            element: candidate.elements[k],
+            chord: candidate.chords[k],
+            xi: candidate.xi[k],
+            arc: candidate.arcs[k],
+            shape: [0.0; 4],
+            slope: [0.0; 4],
+        });
         let spread = [Matrix3::identity(), Matrix3::zeros(), Matrix3::zeros()];
-        PairPoint { ends, point, tangents, frame: frame(Vector3::zeros(), h), spread, linear_spread: spread }
+        let (reach, frame, tangents) = (candidate.reach, frame(Vector3::zeros(), h), [Vector3::zeros(); 2]);
+        PairPoint { ends, from, reach, point, tangents, frame, spread, linear_spread: spread }
+    }
+
+    /// Puts it to places of both elements, with the normal when the step begins.
+    pub fn put(&mut self, pieces: [&Piece<'_>; 2], xi: [f64; 2], normal: Vector3<f64>) {
+        for ((end, piece), xi) in self.ends.iter_mut().zip(pieces).zip(xi) {
+            end.arc += (xi - end.xi) * piece.length;
+            end.xi = xi;
+            (end.shape, end.slope) = (shape::position(xi, piece.length), shape::slope(xi, piece.length));
+        }
+        let at = |k: usize, shape: &[f64; 4]| combine(pieces[k].strand.q, pieces[k].element, shape);
+        let [one, other] = &self.ends;
+        self.tangents = [at(0, &one.slope), at(1, &other.slope)];
+        self.point.start = at(0, &one.shape) - at(1, &other.shape);
+        (self.point.xi, self.point.shape) = (xi[0], one.shape);
+        self.point.patch = Patch::Plane { point: Vector3::zeros(), normal };
+    }
+
+    /// Puts it half way of a passage of cables that were on a side: its depth begins with the true
+    /// one.
+    pub fn pass(&mut self, pieces: [&Piece<'_>; 2], passage: &Passage, side: &Vector3<f64>) {
+        let (gap, normal) = passage.on_side(side);
+        self.put(pieces, passage.xi, normal);
+        self.point.reach = self.reach + normal.dot(&self.point.start) - gap;
     }
 
     /// Moves the frame with an iterate, and returns the change of y.
@@ -58,7 +102,7 @@ impl PairPoint {
         let turned = [change(0, &self.ends[0].slope), change(1, &self.ends[1].slope)];
         let y = self.point.start + 0.5 * moved;
         let tangents = [0, 1].map(|k| self.tangents[k] + 0.5 * turned[k]);
-        let weight = ROLLING / (self.point.reach * self.point.reach);
+        let weight = ROLLING / (self.reach * self.reach);
         let square = |v: &Vector3<f64>| Matrix3::identity() * v.norm_squared() - v * v.transpose();
         let sum = square(&tangents[0]) + square(&tangents[1]) + square(&y) * weight;
         let inverse = sum.try_inverse().unwrap_or_default();

@@ -142,10 +142,7 @@ impl Search {
         }
         // beside a crossing the end of a chord is no place of contact
         let slope = a.slope(xi[0], share);
-        let model = a.strand.model;
-        let is_tip =
-            xi[0] <= 0.0 && model.begins_contact(first.element) || xi[0] >= 1.0 && model.ends_contact(first.element);
-        if !is_tip && y.dot(&slope).abs() > TILT * y.norm() * slope.norm() {
+        if !a.is_tip(xi[0]) && y.dot(&slope).abs() > TILT * y.norm() * slope.norm() {
             return;
         }
         let normal = y.try_normalize(1e-9 * reach);

@@ -5,13 +5,12 @@ use super::super::law::NormalLaw;
 use super::super::point::ContactPoint;
 use super::chords::{Piece, Strand};
 use super::columns::{PairColumns, PairEnd};
-use super::point::{End, PairPoint, frame};
+use super::passage::Passage;
+use super::point::{PairPoint, frame};
 use super::search::{Candidate, Search};
 use super::strands::Strands;
-use crate::element::shape::{self, combine};
-use crate::obstacle::Patch;
 use crate::one_leg::OneLeg;
-use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, NEAR_PAIR, PAID};
+use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, NEAR_PAIR, ONE, PAID};
 use crate::scales::island::MAX_SEARCHES;
 use crate::state::ContactMemory;
 use crate::state::PairMemory;
@@ -134,55 +133,63 @@ impl PairStep {
         let sections = [0, 1].map(|k| &own[k].model.elements[candidate.elements[k]]);
         let (Some(one), Some(other)) = (own[0].model.effects.contact, own[1].model.effects.contact) else { return };
         let Some(friction) = strands.friction(candidate.strands[0], candidate.strands[1]) else { return };
-        let ends = [0, 1].map(|k| End {
-            strand: candidate.strands[k],
-            element: candidate.elements[k],
-            chord: candidate.chords[k],
-            shape: shape::position(candidate.xi[k], sections[k].length),
-            slope: shape::slope(candidate.xi[k], sections[k].length),
-            arc: candidate.arcs[k],
-        });
-        let at = |k: usize, shape: &[f64; 4]| combine(own[k].q, candidate.elements[k], shape);
-        let start = at(0, &ends[0].shape) - at(1, &ends[1].shape);
-        let moved = [0, 1].map(|k| combine(own[k].change, candidate.elements[k], &ends[k].shape));
-        let way = (moved[0] - moved[1]).norm();
-        let memory = self.recall(strands, candidate, way);
-        // the side on which they are: that of the memory, else of the beginning
-        let side = memory.map_or(start, |memory| memory.normal);
-        let normal = if candidate.normal.dot(&side) < 0.0 { -candidate.normal } else { candidate.normal };
-        let chords = Piece::new(own[0], candidate.elements[0]).chords;
-        let mut point = ContactPoint {
+        let pieces = [0, 1].map(|k| Piece::new(own[k], candidate.elements[k]));
+        let passage = Passage::new(pieces.each_ref(), candidate.chords[0], candidate.xi);
+        let from = [0, 1].map(|k| candidate.arcs[k] + (passage.start[k] - candidate.xi[k]) * pieces[k].length);
+        // what begins where another one does is the same contact
+        let is_known = |pair: &PairPoint| {
+            let apart = |k: usize| (pair.from[k] - from[k]).abs();
+            pair.ends.map(|end| end.strand) == candidate.strands && apart(0) + apart(1) < ONE * candidate.reach
+        };
+        if passage.apart.norm() < candidate.reach && self.points.iter().any(is_known) {
+            return;
+        }
+        let places = [0, 1].map(|k| pieces[k].place(candidate.xi[k]));
+        let memory = self.recall(strands, (candidate, from), (places[0][1] - places[1][1]).norm());
+        let apart = places[0][0] - places[1][0];
+        let point = ContactPoint {
             key: (candidate.elements[0] as u32, own[1].key, candidate.elements[1] as u32),
-            xi: candidate.xi[0],
-            shape: ends[0].shape,
-            weight: sections[0].length / chords as f64,
+            weight: pieces[0].length / pieces[0].chords as f64,
             law: NormalLaw::in_series(
                 NormalLaw::of(&one, &sections[0].section),
                 NormalLaw::of(&other, &sections[1].section),
             ),
             mass: reduced(sections.map(|section| section.section.mass_per_length)),
             friction,
-            reach: candidate.reach,
-            patch: Patch::Plane { point: Vector3::zeros(), normal },
-            start,
             ..ContactPoint::default()
         };
+        let mut pair = PairPoint::new(candidate, from, point, self.h);
+        match &memory {
+            Some(memory) => pair.pass(pieces.each_ref(), &passage, &memory.normal),
+            None => {
+                // the side on which they are when it begins
+                let normal = if candidate.normal.dot(&apart) < 0.0 { -candidate.normal } else { candidate.normal };
+                pair.put(pieces.each_ref(), candidate.xi, normal);
+                pair.point.reach = candidate.reach;
+            }
+        }
+        let point = &mut pair.point;
         let still = frame(Vector3::zeros(), self.h);
+        let start = point.start;
         point.recall(&start, &still, memory.as_ref());
         if let Some(memory) = memory.filter(|memory| self.close && memory.friction_power > 0.0) {
             let paid = PAID * memory.friction_power * self.h;
             point.close((paid / point.cost()).min(self.h / CLOSING_TIME).min(1.0));
         }
         self.before += point.energy_before();
-        let tangents = [at(0, &ends[0].slope), at(1, &ends[1].slope)];
-        self.points.push(PairPoint::new(ends, point, tangents, self.h));
+        self.points.push(pair);
     }
 
     /// Returns the nearest contact that the cables remember and that none took up.
-    fn recall(&mut self, strands: &Strands<'_, '_>, candidate: &Candidate, way: f64) -> Option<ContactMemory> {
+    fn recall(
+        &mut self,
+        strands: &Strands<'_, '_>,
+        (candidate, from): (&Candidate, [f64; 2]),
+        way: f64,
+    ) -> Option<ContactMemory> {
         let [a, b] = candidate.strands;
         let key = (strands.get)(b).key;
-        let arcs = [0, 1].map(|k| candidate.arcs[k] - (strands.get)(candidate.strands[k]).passed);
+        let arcs = [0, 1].map(|k| from[k] - (strands.get)(candidate.strands[k]).passed);
         let limit = HAND_ON * candidate.reach + 2.0 * way;
         let mut best: Option<(f64, usize)> = None;
         for (i, memory) in (strands.get)(a).memory.iter().enumerate() {

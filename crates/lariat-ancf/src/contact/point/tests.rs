@@ -8,7 +8,7 @@ use nalgebra::UnitQuaternion;
 fn point(patch: Patch, friction: f64) -> ContactPoint {
     let (xi, shape, weight, reach) = (0.5, [0.5, 0.0, 0.5, 0.0], 0.03, 5e-3);
     let law = NormalLaw::new(1e9, 5e-3);
-    ContactPoint { xi, shape, weight, law, friction, reach, patch, ..ContactPoint::default() }
+    ContactPoint { xi, shape, weight, law, mass: 0.14, friction, reach, patch, ..ContactPoint::default() }
 }
 
 /// Without friction the tangent is minus the derivative of the force, but for the turn of the mean
