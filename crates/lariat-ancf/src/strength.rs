@@ -247,7 +247,9 @@ impl LoadRecord {
     }
 }
 
-/// Where, why and under which load a cable became two.
+/// Where, why and under which load a cable became two. Of a part of a cable that broke before it is
+/// a load of its own: one that strains it by more energy than it had at that break, as long as it
+/// recoils of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Break {

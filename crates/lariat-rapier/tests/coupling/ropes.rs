@@ -129,10 +129,14 @@ fn a_rope_that_is_loaded_at_once_breaks_if_it_bears_less_than_twice_the_load() {
                 let mut broken = None;
                 for _ in 0..(0.2 * rate) as usize {
                     set.step(&mut world).unwrap();
-                    broken = broken.or(set.events().iter().find_map(|event| match event {
+                    broken = set.events().iter().find_map(|event| match event {
                         Event::Broken { how, .. } => Some(*how),
                         _ => None,
-                    }));
+                    });
+                    // how its parts recoil without damping is not asked here
+                    if broken.is_some() {
+                        break;
+                    }
                 }
                 let case = format!("EA {stiffness:e} N, {fidelity:?}, {rate} Hz, {share}: {broken:?}");
                 assert_eq!(broken.is_some(), breaks, "{case}");
