@@ -195,6 +195,18 @@ impl Reels {
         }
     }
 
+    /// Refuses reels that do not have all of `count` elements, the first of which has this number:
+    /// those of a damaged file.
+    pub(crate) fn check_numbers(&self, first: i64, count: usize) -> Result<(), Error> {
+        let from = first.checked_add(self.origin);
+        let to = from.and_then(|from| from.checked_add(count as i64));
+        let has = |side: Side| self.at[side as usize].is_some();
+        let held = from.zip(to).is_some_and(|(from, to)| {
+            (from >= 0 || has(Side::Start)) && (to <= self.mesh.len() as i64 || has(Side::End))
+        });
+        require("number of the first element beside a reel", first as f64, held, "one of the mesh that reels wind up")
+    }
+
     /// Returns an element by its number, at its full length.
     pub(crate) fn element(&self, number: i64) -> Element {
         let at = number + self.origin;

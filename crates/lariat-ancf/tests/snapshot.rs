@@ -140,3 +140,17 @@ fn a_state_of_another_mesh_is_an_error() {
     json["snapshot"] = serde_json::to_value(other.snapshot()).unwrap();
     assert!(serde_json::from_value::<Cable>(json).is_err());
 }
+
+/// A saved cable whose reel numbers elements that neither its mesh nor its stock has is refused, where it panicked.
+#[test]
+fn reels_without_their_elements_are_refused() {
+    let mut cable = soft_cable().fix(At::Start).fidelity(lariat_ancf::Fidelity::Game).build().unwrap();
+    cable.add_reel(At::Start, lariat_ancf::Reel::with_rate(0.1)).unwrap();
+    let text = serde_json::to_string(&cable).unwrap();
+    assert!(serde_json::from_str::<Cable>(&text).is_ok() && text.contains("\"origin\":0"));
+    for origin in ["1", "999999999999", "9223372036854775807"] {
+        let damaged = text.replace("\"origin\":0", &format!("\"origin\":{origin}"));
+        let error = serde_json::from_str::<Cable>(&damaged).unwrap_err().to_string();
+        assert!(error.contains("beside a reel"), "{origin}: {error}");
+    }
+}

@@ -131,6 +131,17 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     std::fs::write(path, text).map_err(|source| Error::Output { path: path.to_path_buf(), source })
 }
 
+/// Writes a page anew, and keeps the part between two marks, which something else writes into it.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn write_around(path: &Path, text: &str, marks: [&str; 2]) -> Result<(), Error> {
+    let before = std::fs::read_to_string(path).unwrap_or_default();
+    let kept = before.find(marks[0]).zip(before.find(marks[1]));
+    let kept = kept.and_then(|(from, to)| before.get(from..to + marks[1].len()));
+    write(path, &kept.map_or(text.to_string(), |kept| format!("{}\n\n{kept}\n", text.trim_end())))
+}
+
 /// Creates a folder, and checks that it can be written before hours of measurements end in an
 /// error.
 ///

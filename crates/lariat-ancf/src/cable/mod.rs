@@ -128,6 +128,10 @@ impl Cable {
     pub(crate) fn from_parts(mut model: Model, snapshot: Snapshot, integrator: Integrator) -> Result<Self, Error> {
         model.check().map_err(|e| e.of_cable(&model.name))?;
         snapshot.state.check(&model.name, 6 * model.nodes())?;
+        if !model.reels.is_empty() {
+            let first = -snapshot.nodes_from_start();
+            model.reels.check_numbers(first, model.elements.len()).map_err(|e| e.of_cable(&model.name))?;
+        }
         if model.load_origins.len() != model.loads.len() {
             model.note_load_origins(snapshot.passed_at_start());
         }

@@ -23,13 +23,14 @@
 //!
 //! The study ends with the finer of the two runs when `e_mesh + e_time <= e`; else the next run has
 //! 1.5 to 3 times as many elements, after the difference and an order of 2.5. Where refining does
-//! not help (the third difference is above 0.6 of the first), the motion is not determined by its
-//! start within `e`, as that of a chaotic pendulum: the study reports the time up to which `e`
-//! holds, in a coupled one by the last three meshes. Where meshes are apart from the first tenth of
-//! the motion on, which is no chaos, the order is that of the last three differences; and where by
-//! it half as many elements again as are allowed would be needed, the study ends at once and
-//! reports how many: that number is an extrapolation, and no claim rests on it. A first run that
-//! fails is repeated with twice and four times as many elements.
+//! not help (the difference is above 0.6 of that of two meshes before, and was so at one of the
+//! last two meshes), the motion is not determined by its start within `e`, as that of a chaotic
+//! pendulum: the study reports the time up to which `e` holds, in a coupled one by the last three
+//! meshes; the first recorded time where the runs say nothing about it. Where meshes are apart from
+//! the first tenth of the motion on, which is no chaos, the order is that of the last three
+//! differences; and where by it half as many elements again as are allowed would be needed, the
+//! study ends at once and reports how many: that number is an extrapolation, and no claim rests on
+//! it. A first run that fails is repeated with twice and four times as many elements.
 //!
 //! # Validity
 //!
@@ -68,7 +69,7 @@ pub use claim::{Claim, Outcome, Proof, StudyError};
 pub use record::Record;
 pub use runs::Resolution;
 
-use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LIMIT, MESHES, REFINED, SMALL};
+use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LEAST, LIMIT, MESHES, REFINED, SMALL};
 use order::Difference;
 use runs::{Run, Runs, Span};
 use time::{Pilots, Time};
@@ -213,6 +214,8 @@ impl<F> Study<F> {
             let growth = if refined { order::growth(&differences, left, early) } else { 1.5 };
             // what parts with time says nothing about the next mesh
             let growth = if time.stuck { growth.min(2.0) } else { growth };
+            // distances that do not fall do not say by how much either
+            let growth = if order::stuck(&differences) { growth.min(LEAST) } else { growth };
             let next = ((fine.elements as f64 * growth).ceil() as usize).min(limit);
             let needed = order::needed(&differences, left).filter(|_| early);
             let needed = needed.map(|share| (share * fine.elements as f64).ceil());
@@ -228,11 +231,12 @@ impl<F> Study<F> {
                 let factor = order::factor(order::tail(&differences, 1), None, largest);
                 coarse.record.first_beyond(&fine.record, left / factor)
             };
+            let at_limit = (next as f64) < 1.5 * fine.elements as f64;
             let outcome = if proven {
                 Outcome::Proven
-            } else if order::stuck(&differences) || time.stuck && differences.len() > 2 {
+            } else if order::stuck_for_good(&differences, at_limit) || time.stuck && differences.len() > 2 {
                 Outcome::NoConvergence
-            } else if (next as f64) < 1.5 * fine.elements as f64 || needed.is_some_and(|n| n > 1.5 * limit as f64) {
+            } else if at_limit || needed.is_some_and(|n| n > 1.5 * limit as f64) {
                 Outcome::ElementLimit
             } else {
                 // of runs with impacts two may agree by chance where all others are apart
@@ -248,6 +252,8 @@ impl<F> Study<F> {
             // runs that are near each other and come no closer
             let horizon =
                 horizon.or_else(|| coarse.record.first_beyond(&fine.record, SMALL * error).filter(|_| coupled));
+            // and of runs that say nothing about each other nothing is proven
+            let horizon = horizon.or_else(|| fine.record.first_time());
             let claim = Claim {
                 asked_m: error,
                 claimed_m: proven.then_some(mesh + time.error),

@@ -189,6 +189,11 @@ impl Record {
         frames.into_iter().find(|&frame| self.apart(other, frame) > distance).map(|frame| self.times[frame])
     }
 
+    /// Returns the first time that was recorded, in s.
+    pub(super) fn first_time(&self) -> Option<f64> {
+        self.times.first().copied()
+    }
+
     /// Returns the least ratio of the element lengths of this mesh to those of a finer one, of
     /// `elements` and `finer_elements` elements, over all places whose elements are not as short as
     /// the finer mesh would have them already; 1 for other cables, and if a cable has no such

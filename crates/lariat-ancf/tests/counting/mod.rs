@@ -11,6 +11,8 @@ thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
     /// The bytes that the thread holds.
     pub static HELD: Cell<i64> = const { Cell::new(0) };
+    /// The most that it held.
+    pub static MOST: Cell<i64> = const { Cell::new(0) };
 }
 
 fn count(bytes: i64) {
@@ -19,7 +21,10 @@ fn count(bytes: i64) {
 }
 
 fn hold(bytes: i64) {
-    let _ = HELD.try_with(|held| held.set(held.get() + bytes));
+    let _ = HELD.try_with(|held| {
+        held.set(held.get() + bytes);
+        let _ = MOST.try_with(|most| most.set(most.get().max(held.get())));
+    });
 }
 
 // SAFETY: every call goes to the system's allocator unchanged

@@ -107,7 +107,10 @@ pub fn judge(of_test: Range<u64>, false_alarms: f64, run: impl Fn(u64) -> (bool,
         right += 1;
         alarms.extend((!told.is_empty()).then(|| format!("{seed}: {told:?}")));
     }
-    println!("told as setup or wrong, coarse, nothing: of right scenes {:?}, of wrong ones {:?}", counts[0], counts[1]);
+    // a row of the table of docs/stability.md, which `.ci/judge` makes
+    let [[serious, coarse, nothing], [told, also_told, silent]] = counts;
+    let family = std::thread::current().name().unwrap_or("").replace("::", ": ").replace('_', " ");
+    println!("judged | {family} | {nothing} | {coarse} | {serious} | {} | {silent} |", told + also_told);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let most = false_alarms * f64::from(right);
     assert!(asked.is_some() || alarms.len() as f64 <= most, "of {right} that are right:\n{}", alarms.join("\n"));

@@ -225,6 +225,7 @@ impl Cable {
         }
         let mut model = self.model.clone();
         let from_start = snapshot.nodes_from_start();
+        model.reels.check_numbers(-from_start, nodes - 1).map_err(|e| e.of_cable(&model.name))?;
         model.elements = (0..nodes - 1).map(|e| model.reels.element(e as i64 - from_start)).collect();
         for side in self.model.reels.sides() {
             if let Some(winding) = &snapshot.windings[side as usize] {

@@ -87,7 +87,9 @@ pub fn measure(arguments: &Arguments) -> Result<String, Error> {
         begun.elapsed().as_secs_f64()
     );
     let (markdown, sections) = page::page(&rows, &machine, &arguments.command(rows.len() == jobs.len()))?;
-    lariat_bench::page::write(&out.join("stability.md"), &markdown)?;
+    // `.ci/judge` writes its table into the page
+    let judged = ["<!-- judged -->", "<!-- /judged -->"];
+    lariat_bench::page::write_around(&out.join("stability.md"), &markdown, judged)?;
     sections.iter().try_for_each(|section| section.save(out))?;
     let good = rows.iter().filter(|r| r.outcome.is_good()).count();
     Ok(format!("{good} of {} runs passed or ended in an allowed error\nresults in {}\n", rows.len(), out.display()))
