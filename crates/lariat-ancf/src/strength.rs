@@ -147,9 +147,10 @@ pub(crate) struct LoadRecord {
     recoil: Option<Recoil>,
     /// What no reading saw, if that is above the limit.
     unseen: Option<Unseen>,
-    /// Time in s of the first reading above the limit since the cable was compared with it.
+    /// Time in s of the first reading above the limit since the cable was compared with it, if the
+    /// worst is.
     #[serde(default)]
-    exceeded: Option<f64>,
+    exceeded: f64,
 }
 
 /// A load above the limit that there may have been between readings below it.
@@ -202,8 +203,8 @@ impl LoadRecord {
         if load.share > 1.0 && is_recoil {
             return;
         }
-        if load.share > 1.0 {
-            self.exceeded.get_or_insert(load.time);
+        if load.share > 1.0 && self.exceeded().is_none() {
+            self.exceeded = load.time;
         }
         if self.worst.is_none_or(|worst| load.share > worst.share) {
             self.worst = Some(Load { arc_length: load.arc_length - self.origin, ..load });
@@ -227,13 +228,12 @@ impl LoadRecord {
 
     /// Returns the largest load since it was taken last, and forgets it.
     pub fn take(&mut self) -> Option<Load> {
-        self.exceeded = None;
         self.worst.take()
     }
 
     /// Returns the time in s of the first reading above the limit since the largest was taken last.
     pub fn exceeded(&self) -> Option<f64> {
-        self.exceeded
+        self.worst.filter(|worst| worst.share > 1.0).map(|_| self.exceeded)
     }
 
     /// Returns the largest load since it was taken last.
