@@ -259,7 +259,11 @@ impl ContactPoint {
         if self.friction > 0.0 {
             let is_constant = gap.mean == gap.normal;
             let mean = if is_constant { gap.mean } else { gap.mean.try_normalize(0.0).unwrap_or(gap.normal) };
-            let damping = self.weight * stick_damping(self.law.stiffness, self.mass) / obstacle.h;
+            // on a body that is an unknown of the step the spring is alone
+            let damping = match obstacle.body {
+                None => self.weight * stick_damping(self.law.stiffness, self.mass) / obstacle.h,
+                Some(_) => 0.0,
+            };
             let stick = Stick { stiffness, damping, bound: self.bound, sticks: about.sticks };
             let friction = friction(&stick, &mean, &u0, &slip);
             out.friction = -friction.force;

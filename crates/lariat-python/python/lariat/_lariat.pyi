@@ -346,7 +346,7 @@ class Cable:
         *,
         moment: ArrayLike | None = None,
         ramp: float = 0.0,
-        history: Sequence[tuple[float, float]] = (),
+        history: Sequence[tuple[float, float]] | None = None,
     ) -> None:
         """Adds a force (N) and moment (N m) in world axes at an arc length (m), ramped over ``ramp`` s, times the factor of ``history``:
         rows of seconds from now and factor, linear between them, constant outside. Raises OutOfRangeError, InvalidValueError."""

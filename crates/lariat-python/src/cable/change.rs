@@ -50,7 +50,7 @@ impl Cable {
 
     /// Adds a force (N) and moment (N m) in world axes at an arc length (m), ramped over `ramp` s, times the factor of
     /// `history`: rows of seconds from now and factor, linear between them, constant outside.
-    #[pyo3(signature = (s, force=None, *, moment=None, ramp=0.0, history=Vec::new()))]
+    #[pyo3(signature = (s, force=None, *, moment=None, ramp=0.0, history=None))]
     fn add_load(
         &self,
         py: Python<'_>,
@@ -58,9 +58,10 @@ impl Cable {
         force: Option<Vector>,
         moment: Option<Vector>,
         ramp: f64,
-        history: Vec<[f64; 2]>,
+        history: Option<Vec<[f64; 2]>>,
     ) -> PyResult<()> {
         let [force, moment] = [force, moment].map(|v| v.map_or(Vector3::zeros(), |v| v.0));
+        let history = history.unwrap_or_default();
         self.change(py, |cable| cable.add_load(PointLoad { moment, ramp, history, ..PointLoad::force(s, force) }))
     }
 

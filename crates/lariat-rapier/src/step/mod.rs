@@ -129,8 +129,11 @@ pub(crate) fn predict_next(
     if !host.is_unfinished() {
         return Ok(());
     }
-    if host.done > 0 {
+    if host.dt > 0.0 {
+        // also what carries too much since a program changed it, asleep or not
         breaking::break_overloaded(contents, &mut stepper.events);
+    }
+    if host.done > 0 {
         split_finer(contents, world, settings, host);
     }
     host.advance();

@@ -6,8 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The kinds that scenes are there to show, by file; all others tell nothing. Each file says so.
-const MEANT: [(&str, &[&str]); 9] = [
-    ("contact/heap", &["friction_lags"]),
+const MEANT: [(&str, &[&str]); 8] = [
     ("scenes/payload_pendulum", &["coarse_mesh"]),
     ("hard/silent_gpa", &["soft_material"]),
     ("hard/silent_mm", &["stubby"]),

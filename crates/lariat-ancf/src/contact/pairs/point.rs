@@ -51,7 +51,10 @@ pub(super) struct PairPoint {
 pub(super) fn frame(half: Vector3<f64>, h: f64) -> ObstacleStep {
     let (origin, still) = (Vector3::zeros(), UnitQuaternion::identity());
     let path = BodyPath { centre: origin, displacement: origin, rotation: still, half, moved: false };
-    ObstacleStep::carried(&Mount { body: 0, position: origin, rotation: still }, &path, h)
+    let mut frame = ObstacleStep::carried(&Mount { body: 0, position: origin, rotation: still }, &path, h);
+    // no body of the island carries it
+    frame.body = None;
+    frame
 }
 
 impl PairPoint {
