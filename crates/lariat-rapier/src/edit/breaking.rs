@@ -5,17 +5,25 @@
 //! a host step: [`breaks`](crate::step).
 
 use super::part::part;
-use crate::contents::Contents;
+use crate::contents::{Contents, Slot};
 use crate::events::Event;
 use crate::handle::CableHandle;
 use lariat_ancf::Cable;
 
 /// Breaks the cables that carry more than they withstand.
 pub(crate) fn break_overloaded(contents: &mut Contents, events: &mut Vec<Event>) {
+    // the load of a sleeping cable does not change
+    break_those(contents, events, |slot| !(slot.asleep && slot.compared));
+}
+
+/// Breaks the sleeping cables that carry more than what they withstand by now.
+pub(crate) fn break_sleeping(contents: &mut Contents, events: &mut Vec<Event>) {
+    break_those(contents, events, |slot| slot.asleep && !slot.compared);
+}
+
+fn break_those(contents: &mut Contents, events: &mut Vec<Event>, chosen: fn(&Slot) -> bool) {
     for i in 0..contents.cables.len() {
-        // the load of a sleeping cable does not change
-        let compares =
-            |slot: &&mut crate::contents::Slot| slot.cable.strength().is_limited() && !(slot.asleep && slot.compared);
+        let compares = |slot: &&mut Slot| slot.cable.strength().is_limited() && chosen(slot);
         let Some(slot) = contents.cables.get_mut(i).filter(compares) else { continue };
         slot.compared = true;
         // a cable that was built can be cut at its nodes

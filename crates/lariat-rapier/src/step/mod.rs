@@ -129,12 +129,12 @@ pub(crate) fn predict_next(
     if !host.is_unfinished() {
         return Ok(());
     }
-    if host.dt > 0.0 {
-        // also what carries too much since a program changed it, asleep or not
-        breaking::break_overloaded(contents, &mut stepper.events);
-    }
     if host.done > 0 {
+        breaking::break_overloaded(contents, &mut stepper.events);
         split_finer(contents, world, settings, host);
+    } else if host.dt > 0.0 {
+        // one that is awake breaks where its prediction begins
+        breaking::break_sleeping(contents, &mut stepper.events);
     }
     host.advance();
     if host.dt == 0.0 {
