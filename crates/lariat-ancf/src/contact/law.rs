@@ -28,9 +28,9 @@
 //!
 //! # Validity
 //!
-//! The mass is that of the cable alone: under a heavier body, which rides on it, the spring would be
-//! damped by less, in the root of the masses. On bodies that move freely the spring has no damper:
-//! docs/decisions/restitution.md.
+//! The mass is that of the cable alone: under a heavier body, which rides on it, the spring would
+//! be damped by less, in the root of the masses. On bodies that move freely the spring has no
+//! damper: docs/decisions/restitution.md.
 //!
 //! # References
 //!
