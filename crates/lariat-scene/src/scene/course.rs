@@ -26,7 +26,7 @@
 //! de Boor 2001, chapter IV (cubic Hermite interpolation, Bessel's end rule); Sola et al. 2018, "A micro
 //! Lie theory", equations 143 and 144 (right Jacobian of SO(3)).
 
-use lariat_ancf::Vector3;
+use lariat_ancf::{Motion, Vector3};
 use nalgebra::{Matrix3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
@@ -169,9 +169,7 @@ fn rate<T>(rows: &[(f64, T)], row: usize, mean: impl Fn(usize) -> Vector3<f64>) 
 
 /// Returns the cubic from 0 to `way` in a time h with the rates at its ends, and its rate, at a time.
 fn cubic(h: f64, time: f64, way: &Vector3<f64>, [from, to]: [Vector3<f64>; 2]) -> (Vector3<f64>, Vector3<f64>) {
-    let s = time / h;
-    let value = way * (s * s * (3.0 - 2.0 * s)) + (from * ((1.0 - s) * (1.0 - s)) - to * (s * (1.0 - s))) * (s * h);
-    let rate = way * (6.0 * s * (1.0 - s) / h) + from * ((1.0 - s) * (1.0 - 3.0 * s)) + to * (s * (3.0 * s - 2.0));
+    let [value, rate, _] = Motion::hermite(0.0, h, (Vector3::zeros(), from), (*way, to)).at(time);
     (value, rate)
 }
 

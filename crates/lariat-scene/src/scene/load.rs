@@ -59,9 +59,8 @@ pub struct BodyLoadScene {
 impl BodyLoadScene {
     /// Returns force (N) and moment (N m) at a time in s; `in_full` whatever its ramp.
     pub fn at(&self, time: f64, in_full: bool) -> (Vector3<f64>, Vector3<f64>) {
-        let PointLoad { force, moment, ramp, .. } = self.load;
-        let factor = if in_full && ramp > 0.0 { self.load.history_at(time) } else { self.load.factor(time) };
-        (force * factor, moment * factor)
+        let factor = if in_full { self.load.history_at(time) } else { self.load.factor(time) };
+        (self.load.force * factor, self.load.moment * factor)
     }
 }
 

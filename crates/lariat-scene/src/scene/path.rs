@@ -39,7 +39,7 @@ pub enum PathOrRows {
 /// Reads a path; files are named from `folder`.
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, path: PathOrRows, folder: &FilePath) -> Result<Path, Error> {
     let PathTable { rows, rotation, csv, smooth } = match path {
-        PathOrRows::Rows(rows) => return Ok(Path { positions: positions(doc, at, &rows)?, ..Path::default() }),
+        PathOrRows::Rows(rows) => return Ok(Path { positions: in_time(doc, at, &rows)?, ..Path::default() }),
         PathOrRows::Table(table) => table,
     };
     let (mut rows, mut rotation) = (rows.unwrap_or_default(), rotation.unwrap_or_default());
@@ -53,8 +53,8 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, path: PathOrRows, folder: &
         (rows, rotation) = read_file(&folder.join(file)).map_err(|problem| doc.conflict(&at, problem))?;
     }
     let key = |key| at.key(if csv.is_some() { "csv" } else { key });
-    let positions = positions(doc, &key("rows"), &rows)?;
-    let vectors = self::positions(doc, &key("rotation"), &rotation)?;
+    let positions = in_time(doc, &key("rows"), &rows)?;
+    let vectors = in_time(doc, &key("rotation"), &rotation)?;
     if let Some(far) = vectors.windows(2).find(|pair| (pair[1].1 - pair[0].1).norm() >= PI) {
         let problem = format!(
             "it turns by {:.2} rad between {} s and {} s, where half a turn has two senses: add rows between them",
@@ -112,11 +112,12 @@ fn read_file(path: &FilePath) -> Result<(Rows, Rows), String> {
     if rows.is_empty() { Err(named("it has no rows".to_string())) } else { Ok((rows, rotation)) }
 }
 
-fn positions(doc: &Document<'_>, at: &KeyPath, rows: &[[f64; 4]]) -> Result<Vec<(f64, Vector3<f64>)>, Error> {
+/// Returns the vectors of rows with their times.
+fn in_time(doc: &Document<'_>, at: &KeyPath, rows: &[[f64; 4]]) -> Result<Vec<(f64, Vector3<f64>)>, Error> {
     let row = |&[t, x, y, z]: &[f64; 4]| {
-        let position = Vector3::new(x, y, z);
-        doc.check_single(at, &position)?;
-        Ok((t, position))
+        let vector = Vector3::new(x, y, z);
+        doc.check_single(at, &vector)?;
+        Ok((t, vector))
     };
     rows.iter().map(row).collect()
 }

@@ -98,39 +98,23 @@ fn the_velocity_of_a_mesh_is_that_of_its_origin() {
     assert!(state[8..11].iter().all(|v| v.abs() < 1e-6) && state[1..4].iter().all(|x| x.abs() < 1e-6), "{state:?}");
 }
 
+/// A scene without gravity of a kinematic body that holds the start of a cable, with a probe of each.
+fn moved(head: &str, body: &str, points: [[f64; 3]; 2]) -> String {
+    format!(
+        "{head}\ngravity = [0.0, 0.0, 0.0]\n[[body]]\nname = \"b\"\nkind = \"kinematic\"\nshape = \"none\"\n{body}\n\
+         [[cable]]\nname = \"c\"\npoints = {points:?}\nsection = {{ round = 0.01 }}\ndensity = 1000.0\nyoungs_modulus = 1e7\n\
+         [[attachment]]\ncable = \"c\"\nat = \"start\"\nbody = \"b\"\n[[probe]]\nname = \"b\"\nbody = \"b\"\n\
+         [[probe]]\nname = \"start\"\ncable = \"c\"\nat = \"start\"\n"
+    )
+}
+
 /// *Source.* The path; `exp(w t)`.
 #[test]
 fn a_kinematic_body_follows_its_path_and_moves_the_cable() {
-    let text = r#"
-duration = 1.0
-dt = 0.05
-gravity = [0.0, 0.0, 0.0]
-[[body]]
-name = "arm"
-kind = "kinematic"
-shape = "none"
-angular_velocity = [0.0, 0.0, 1.0]
-path = [[0.2, 0.0, 0.0, 0.0], [0.6, 0.0, 0.0, 0.8]]
-[[cable]]
-name = "c"
-points = [[1.0, 0.0, 0.0], [1.5, 0.0, 0.0]]
-section = { round = 0.01 }
-density = 1000.0
-youngs_modulus = 1e7
-[[attachment]]
-cable = "c"
-at = "start"
-body = "arm"
-[[probe]]
-name = "arm"
-body = "arm"
-[[probe]]
-name = "start"
-cable = "c"
-at = "start"
-"#;
-    let results = Results::of_text("run", text).done();
-    let (arm, start) = (results.rows("arm"), results.rows("start"));
+    let body = "angular_velocity = [0.0, 0.0, 1.0]\npath = [[0.2, 0.0, 0.0, 0.0], [0.6, 0.0, 0.0, 0.8]]";
+    let text = moved("duration = 1.0\ndt = 0.05", body, [[1.0, 0.0, 0.0], [1.5, 0.0, 0.0]]);
+    let results = Results::of_text("run", &text).done();
+    let (arm, start) = (results.rows("b"), results.rows("start"));
     assert_eq!(arm.len(), 21);
     for (arm, start) in arm.iter().zip(&start) {
         let t = arm[0];
@@ -153,37 +137,11 @@ fn a_smooth_path_of_a_file_moves_and_turns_the_body() {
     let folder = tempfile::tempdir().unwrap();
     let rows = (0..=40).map(|i| 0.025 * f64::from(i)).map(|t| format!("{t},1,{},0,0,0,{}\n", heave(t).0, roll(t).0));
     fs::write(folder.path().join("deck.csv"), "t,x,y,z,rx,ry,rz\n".to_string() + &rows.collect::<String>()).unwrap();
-    let text = r#"
-duration = 0.9
-dt = 0.01
-gravity = [0.0, 0.0, 0.0]
-[[body]]
-name = "deck"
-kind = "kinematic"
-shape = "none"
-path = { csv = "deck.csv" }
-[[cable]]
-name = "c"
-points = [[2.0, 0.3, 0.0], [2.5, 0.3, 0.0]]
-section = { round = 0.01 }
-density = 1000.0
-youngs_modulus = 1e7
-[[attachment]]
-cable = "c"
-at = "start"
-body = "deck"
-[[probe]]
-name = "deck"
-body = "deck"
-[[probe]]
-name = "start"
-cable = "c"
-at = "start"
-"#;
+    let text = moved("duration = 0.9\ndt = 0.01", "path = { csv = \"deck.csv\" }", [[2.0, 0.3, 0.0], [2.5, 0.3, 0.0]]);
     let file = folder.path().join("scene.toml");
     fs::write(&file, text).unwrap();
     let results = Results::of("run", &file, &[]).done();
-    for (deck, start) in results.rows("deck").iter().zip(results.rows("start")) {
+    for (deck, start) in results.rows("b").iter().zip(results.rows("start")) {
         let t = deck[0];
         let ((y, v), (angle, spin)) = (heave(t), roll(t));
         assert!((deck[2] - y).abs() < 3e-5 && (deck[9] - v).abs() < 5e-3, "{deck:?}");
