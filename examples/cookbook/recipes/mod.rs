@@ -11,6 +11,7 @@ mod net;
 mod pulley;
 mod seabed;
 mod tow_rope;
+mod walked_bridge;
 
 use std::error::Error;
 
@@ -58,10 +59,11 @@ macro_rules! recipe {
 }
 
 /// All recipes, in the order of the page.
-pub const ALL: [Recipe; 11] = [
+pub const ALL: [Recipe; 12] = [
     recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
+    recipe!(walked_bridge, WalkedBridge, "2 x 43", 21, "game", 570),
     recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200),
     recipe!(hook, Hook, "1 x 4", 1, "game", 900),
     recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90),

@@ -11,10 +11,10 @@ use crate::body::ledger::is_ledger;
 use crate::convert::{to_vector, vector};
 use crate::scales::body::{PREDICTION_DISTANCES, STEPS_AHEAD};
 use ::nalgebra::Vector3;
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{CoefficientCombineRule, RigidBodyHandle};
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
 use rapier::math::{Real, Vector};
-use rapier::parry::query::distance;
+use rapier::parry::query::{contact, distance};
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
 
 /// Returns whether a body may deviate from its prediction and must feel its cables meanwhile: it is
@@ -135,35 +135,40 @@ pub(crate) fn overlaps(world: &PhysicsWorld, handle: RigidBodyHandle, displaceme
     })
 }
 
-/// Returns an upper bound in m/s of the speed at which a body may collide within `dt` (s) with one
-/// that Rapier lists no pair with yet, if no other is faster than `fastest` (m/s); `None` if it
-/// cannot. Slow bodies among slow ones need no look-up.
-pub(crate) fn unlisted_collision(
-    world: &PhysicsWorld,
+/// Returns whether a body may collide within `dt` (s) with one that Rapier may list no pair with
+/// yet, if no other is faster than `fastest` (m/s).
+pub(crate) fn may_collide(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> bool {
+    within_reach(world, handle, (dt, fastest)).next().is_some()
+}
+
+/// Returns the colliders of a body and of others that may touch within `dt` (s), whether Rapier
+/// lists them or not. Slow bodies among slow ones need no look-up.
+fn within_reach<'a>(
+    world: &'a PhysicsWorld,
     handle: RigidBodyHandle,
     (dt, fastest): (f64, f64),
-) -> Option<f64> {
+) -> impl Iterator<Item = (&'a Collider, &'a Collider)> {
     let velocity = vector(world.bodies[handle].linvel());
     let displacement = velocity * dt;
     let listed = f64::from(world.integration_parameters.prediction_distance());
     let others = dt * fastest;
     // the list of pairs may be one step old
-    if STEPS_AHEAD * (displacement.norm() + others) <= listed {
-        return None;
-    }
-    let colliders = world.bodies[handle].colliders().iter().filter_map(|c| world.colliders.get(*c));
-    let collides = colliders.filter(|c| c.is_enabled() && !c.is_sensor()).any(|collider| {
+    let slow = STEPS_AHEAD * (displacement.norm() + others) <= listed;
+    let handles = if slow { &[] } else { world.bodies[handle].colliders() };
+    let colliders = handles.iter().filter_map(|c| world.colliders.get(*c)).filter(|c| c.is_enabled() && !c.is_sensor());
+    colliders.flat_map(move |collider| {
         let filter =
             QueryFilter::default().exclude_rigid_body(handle).exclude_sensors().groups(collider.collision_groups());
-        let own = swept(collider.compute_aabb(), &displacement, listed);
-        let reached = own.loosened(others as Real);
-        world.intersect_aabb_conservative(reached, filter).any(|(_, other)| {
+        let swept_own = swept(collider.compute_aabb(), &displacement, listed);
+        let reached = swept_own.loosened(others as Real);
+        world.intersect_aabb_conservative(reached, filter).filter_map(move |(_, other)| {
             let moved = velocity_of(world, other) * dt;
             let way = || (displacement - moved).norm() + turn(world, collider, dt) + turn(world, other, dt);
-            swept(other.compute_aabb(), &moved, 0.0).intersects(&own) && reaches(world, collider, other, way())
+            let meets = swept(other.compute_aabb(), &moved, 0.0).intersects(&swept_own)
+                && reaches(world, collider, other, way());
+            meets.then_some((collider, other))
         })
-    });
-    collides.then(|| velocity.norm() + fastest)
+    })
 }
 
 /// Returns the velocity in m/s of the body of a collider.
@@ -171,26 +176,54 @@ fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
     collider.parent().and_then(|b| world.bodies.get(b)).map_or_else(Vector3::zeros, |b| vector(b.linvel()))
 }
 
+/// Calls `f` for each contact that a body has, or may have within `dt` (s), if no other body is
+/// faster than `fastest` (m/s): with the speed in m/s at which they collide at most, along the
+/// normal where they touch, and the direction in which it pushes, `None` if that is not known or
+/// friction pushes in others.
+pub(crate) fn for_each_push(
+    world: &PhysicsWorld,
+    handle: RigidBodyHandle,
+    (dt, fastest): (f64, f64),
+    mut f: impl FnMut(f64, &dyn Fn() -> Option<Vector3<f64>>),
+) {
+    let velocity = vector(world.bodies[handle].linvel());
+    let margin = f64::from(world.integration_parameters.prediction_distance());
+    let slips = |one: &Collider, two: &Collider| {
+        let rules = (one.friction_combine_rule(), two.friction_combine_rule());
+        CoefficientCombineRule::combine(one.friction(), two.friction(), rules.0, rules.1) == 0.0
+    };
+    for (own, other, pair) in pairs(world, handle) {
+        let relative = velocity - velocity_of(world, other);
+        for manifold in pair.manifolds().iter().filter(|m| !m.points.is_empty()) {
+            let normal = vector(manifold.data.normal);
+            f(relative.dot(&normal).abs(), &|| slips(own, other).then_some(normal));
+        }
+        let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
+        if !touches(pair)
+            && swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
+            && reaches(world, own, other, way())
+        {
+            f(relative.norm(), &|| slips(own, other).then(|| direction(own, other)).flatten());
+        }
+    }
+    for (own, other) in within_reach(world, handle, (dt, fastest)) {
+        f(velocity.norm() + fastest, &|| slips(own, other).then(|| direction(own, other)).flatten());
+    }
+}
+
+/// Returns the direction from the nearest point of a collider to that of another.
+fn direction(own: &Collider, other: &Collider) -> Option<Vector3<f64>> {
+    let nearest = contact(own.position(), own.shape(), other.position(), other.shape(), Real::MAX);
+    nearest.ok().flatten().map(|c| vector(c.normal1)).filter(|n| n.iter().all(|x| x.is_finite()))
+}
+
 /// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
 /// is faster than `fastest` (m/s); `None` if it cannot. For pairs in contact it is the speed along
 /// the normal.
-pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
-    let velocity = vector(world.bodies[handle].linvel());
-    let margin = f64::from(world.integration_parameters.prediction_distance());
-    let speeds = pairs(world, handle).filter_map(|(own, other, pair)| {
-        let relative = velocity - velocity_of(world, other);
-        let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
-        let along = normals.map(|n| relative.dot(&n).abs()).reduce(f64::max);
-        let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
-        let meets = || {
-            swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
-                && reaches(world, own, other, way())
-        };
-        along.or_else(|| meets().then(|| relative.norm()))
-    });
-    let listed = speeds.reduce(f64::max);
-    let unlisted = unlisted_collision(world, handle, (dt, fastest));
-    listed.into_iter().chain(unlisted).reduce(f64::max)
+pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, within: (f64, f64)) -> Option<f64> {
+    let mut speed: Option<f64> = None;
+    for_each_push(world, handle, within, |push, _| speed = Some(speed.unwrap_or(0.0).max(push)));
+    speed
 }
 
 /// Returns the speed in m/s of the fastest body that is awake.

@@ -150,7 +150,7 @@ fn deviates(
         return false;
     }
     proximity::may_deviate(world, handle)
-        || proximity::unlisted_collision(world, handle, (step.h, step.fastest)).is_some()
+        || proximity::may_collide(world, handle, (step.h, step.fastest))
         || !contents.records.get(handle).is_some_and(|record| record.stepped)
             && proximity::overlaps(world, handle, &displacement)
 }

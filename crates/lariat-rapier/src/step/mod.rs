@@ -4,7 +4,7 @@
 //!
 //! | file | per Rapier step |
 //! |---|---|
-//! | [`mod@host_step`], [`substepping`] | the Rapier steps of a host step, and how many it has |
+//! | [`mod@host_step`], [`substepping`], [`mod@stiffness`] | the Rapier steps of a host step, and how many it has |
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
@@ -42,6 +42,7 @@ pub(crate) mod reels;
 pub(crate) mod refused;
 pub(crate) mod settings;
 pub(crate) mod sleep;
+mod stiffness;
 pub(crate) mod substepping;
 mod waking;
 

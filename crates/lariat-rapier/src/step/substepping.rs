@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! h w <= 0.6                      w^2 = k/m,   k = sum of EA/l over the pins of a body
+//! h w <= 0.6                      w^2 = k/m,   k = n.K n,   K that of the taut cables of a body
 //! h |w|/(2 N) <= 1.2              in N solver iterations
 //! h |w|/(2 N) <= 0.005            of a body on impulse joints
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
@@ -13,13 +13,15 @@
 //! two jammed bodies of 1 kg under 1 kN oscillate by half of it, and a body that is released
 //! suddenly is thrown by the old estimate (a gap of F h^2/2m). Therefore the host step is split
 //! finer where a body that is near others, or has a reaction estimate, hangs on a cable that is
-//! taut or may become so. l is the length of the cable to its end, which gives an upper bound of
-//! its stiffness. A cable that sags gives way: the force F of a shallow catenary of length L and
-//! chord c varies as (L - c)^-1/2, its stiffness F/(2 (L - c)) as (L - c)^-3/2, which does not
-//! double while the chord grows by less than 1 - 2^(-2/3) = 0.37 of L - c. The growth is bounded by
-//! the present motion, a collision's change of velocity (2 v h), and a reaction estimate r that is
-//! wrong altogether (r h^2/2m). A cable that stays slack by that asks for no split: of a body that
-//! it pulls into a stop, r = F, h w <= 0.61.
+//! taut or may become so ([`stiffness`](super::stiffness)). n is a direction in which something
+//! pushes it: that of the estimate, and the normals of the contacts that it has or is about to
+//! have. Joints push in all directions, and so does friction. The plank of a bridge under a foot
+//! without friction is soft, where its ropes are stiff along them. A cable that sags gives way: the
+//! force F of a shallow catenary of length L and chord c varies as (L - c)^-1/2, its stiffness F/(2
+//! (L - c)) as (L - c)^-3/2, which does not double while the chord grows by less than 1 - 2^(-2/3)
+//! = 0.37 of L - c. The growth is bounded by the present motion, a collision's change of velocity
+//! (2 v h), and a reaction estimate r that is wrong altogether (r h^2/2m). A cable that stays slack
+//! by that asks for no split: of a body that it pulls into a stop, r = F, h w <= 0.61.
 //!
 //! *Blows.* A cable follows a body that deviates by its linear response. A collision displaces an
 //! end by v h at most; by more than half an element it would fold that.
@@ -60,12 +62,10 @@ use crate::contact;
 use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::scales::body::MAX_HALF_ROTATION;
-use crate::scales::step::{
-    DEVIATION_SHARE, JOINTED_STEPS, MAX_LOSS, MAX_PHASE, MAX_REBOUND, MIN_REACTION, SLACK_SHARE,
-};
+use crate::scales::step::{DEVIATION_SHARE, JOINTED_STEPS, MAX_LOSS, MAX_PHASE, MAX_REBOUND, MIN_REACTION};
 use crate::step::settings::{Settings, pieces};
+use crate::step::stiffness::{Stiffness, on_body};
 use ::nalgebra::Vector3;
-use lariat_ancf::At;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
@@ -78,24 +78,29 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     }
     let mut fastest = None;
     let mut needed = f64::from(min);
-    for a in contents.attachments.values().filter(|a| is_integrated(world, a.body)) {
+    // once for each body, at the first of its attachments
+    let first = |a: &&Attachment| {
+        contents.attachments.values().find(|b| b.body == a.body).is_some_and(|b| core::ptr::eq(b, *a))
+    };
+    for a in contents.attachments.values().filter(|a| is_integrated(world, a.body)).filter(first) {
         let fastest = *fastest.get_or_insert_with(|| proximity::fastest(world));
-        let inverse_mass = f64::from(world.bodies[a.body].mass_properties().local_mprops.inv_mass);
-        let reaction = split_spatial(&contents.records.reaction(a.body)).0.norm();
-        let stiffness = |speed: f64| {
-            let change = MAX_REBOUND * speed * dt + 0.5 * reaction * inverse_mass * dt * dt;
-            taut_stiffness(contents, a.body, (dt, change))
-        };
+        let body = Body::new(contents, world, a.body, dt);
         // most cables stay slack and hardly move whatever their body meets, and collisions take
         // longer to find
         let most = f64::from(world.bodies[a.body].linvel().length()) + fastest;
-        let longest = max_deviation(contents, a);
-        if stiffness(most) == 0.0 && most * dt <= longest {
+        let longest = on_body(contents, a.body).map(|a| max_deviation(contents, a)).fold(f64::INFINITY, f64::min);
+        if body.stiffness(most).sum == 0.0 && most * dt <= longest {
             continue;
         }
-        let Some(speed) = deviation_speed(contents, world, a, (dt, fastest)) else { continue };
-        let stiffness = stiffness(speed);
-        needed = needed.max(dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE).max(speed * dt / longest);
+        let collision = proximity::collision(world, a.body, (dt, fastest));
+        let held = || on_body(contents, a.body).any(|a| is_held(contents, a));
+        let Some(speed) = collision.or_else(|| held().then_some(0.0)) else { continue };
+        let steps = |stiffness: f64| dt * (stiffness * body.inverse_mass).sqrt() / MAX_PHASE;
+        let stiffness = body.stiffness(speed);
+        needed = needed.max(speed * dt / longest);
+        if steps(stiffness.sum) > needed {
+            needed = needed.max(steps(body.pushed(&stiffness, (dt, fastest))));
+        }
     }
     let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
     if contents.attachments.values().any(jointed) {
@@ -144,18 +149,6 @@ fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
     contents.attachments.values().map(count).fold(0.0, f64::max)
 }
 
-/// Returns the speed in m/s at which the body of an attachment may collide within `dt` (s), if no
-/// other body is faster than `fastest` (m/s), or 0 if it has a reaction estimate. `None` if it does
-/// not deviate.
-fn deviation_speed(
-    contents: &Contents,
-    world: &PhysicsWorld,
-    a: &Attachment,
-    (dt, fastest): (f64, f64),
-) -> Option<f64> {
-    proximity::collision(world, a.body, (dt, fastest)).or(is_held(contents, a).then_some(0.0))
-}
-
 /// Returns whether the body of an attachment has a reaction estimate against the force there.
 fn is_held(contents: &Contents, a: &Attachment) -> bool {
     split_spatial(&contents.records.reaction(a.body)).0.norm() > MIN_REACTION * a.reading.force.norm()
@@ -169,50 +162,53 @@ fn max_deviation(contents: &Contents, a: &Attachment) -> f64 {
     DEVIATION_SHARE * next.iter().map(|element| element.length).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns an upper bound in N/m of the stiffness of the cables of a body that may be taut within
-/// `dt` (s), if the body moves by `change` (m) beside its present motion.
-fn taut_stiffness(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64, f64)) -> f64 {
-    let on_body = contents.attachments.values().filter(|a| a.body == body);
-    let taut =
-        on_body.flat_map(|a| parts(contents, a)).filter(|part| part.speed * dt + change > SLACK_SHARE * part.slack);
-    taut.map(|part| part.stiffness).sum()
+/// A body that may deviate from its prediction.
+struct Body<'a> {
+    contents: &'a Contents,
+    world: &'a PhysicsWorld,
+    handle: RigidBodyHandle,
+    /// Of the Rapier step, in s.
+    dt: f64,
+    /// In 1/kg.
+    inverse_mass: f64,
+    /// Estimated force of contacts and joints, in N.
+    reaction: Vector3<f64>,
+}
+
+impl<'a> Body<'a> {
+    fn new(contents: &'a Contents, world: &'a PhysicsWorld, handle: RigidBodyHandle, dt: f64) -> Self {
+        let inverse_mass = f64::from(world.bodies[handle].mass_properties().local_mprops.inv_mass);
+        let reaction = split_spatial(&contents.records.reaction(handle)).0;
+        Body { contents, world, handle, dt, inverse_mass, reaction }
+    }
+
+    /// Returns what its taut cables do if it collides at a speed (m/s).
+    fn stiffness(&self, speed: f64) -> Stiffness {
+        let dt = self.dt;
+        let change = MAX_REBOUND * speed * dt + 0.5 * self.reaction.norm() * self.inverse_mass * dt * dt;
+        Stiffness::of(self.contents, self.handle, (dt, change))
+    }
+
+    /// Returns the largest stiffness in N/m along the directions in which others may push it, if no
+    /// other body is faster than the second of `within` (m/s).
+    fn pushed(&self, stiffness: &Stiffness, within: (f64, f64)) -> f64 {
+        if !proximity::is_unjointed(self.world, self.handle) {
+            return stiffness.sum;
+        }
+        let mut largest = self.reaction.try_normalize(0.0).map_or(0.0, |along| stiffness.along(&along));
+        proximity::for_each_push(self.world, self.handle, within, |_, normal| {
+            largest = largest.max(normal().map_or(stiffness.sum, |normal| stiffness.along(&normal)));
+        });
+        largest
+    }
 }
 
 /// Returns h w in steps of `h` (s) of the body of an attachment that something holds, if that
 /// rests: it has less kinetic energy than a strain of its cables by the force there.
 pub(super) fn resting_phase(contents: &Contents, world: &PhysicsWorld, a: &Attachment, h: f64) -> Option<f64> {
     let body = world.bodies.get(a.body).filter(|_| is_integrated(world, a.body) && is_held(contents, a))?;
-    let stiffness = taut_stiffness(contents, a.body, (h, 0.0));
+    let stiffness = Stiffness::of(contents, a.body, (h, 0.0)).sum;
     let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
     let rests = mass * speed * speed * stiffness < a.reading.force.norm_squared();
     rests.then(|| h * (stiffness / mass).sqrt())
-}
-
-/// The part of a cable between a node and a held end.
-struct Part {
-    /// Upper bound of its stiffness in N/m.
-    stiffness: f64,
-    /// Its length without strain less its chord, in m.
-    slack: f64,
-    /// Relative speed of its ends in m/s.
-    speed: f64,
-}
-
-/// Returns the parts of a cable between an attachment and the held ends.
-fn parts<'a>(contents: &'a Contents, a: &Attachment) -> impl Iterator<Item = Part> + use<'a> {
-    // the number may be that of before a change of the cable
-    let (cable, node) = (contents.slot(a.cable).map(|slot| &slot.cable), a.node);
-    cable.into_iter().flat_map(move |cable| {
-        let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
-        let last = cable.elements().len();
-        let node = node.min(last);
-        let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
-        [0, last].into_iter().filter(move |end| *end != node && held(*end)).map(move |end| {
-            let elements = &cable.elements()[node.min(end)..node.max(end)];
-            let length: f64 = elements.iter().map(|e| e.length).sum();
-            let compliance: f64 = elements.iter().map(|e| e.length / e.section.axial_stiffness).sum();
-            let chord = (cable.node_position(node) - cable.node_position(end)).norm();
-            Part { stiffness: 1.0 / compliance, slack: length - chord, speed: (velocity(node) - velocity(end)).norm() }
-        })
-    })
 }
