@@ -42,6 +42,9 @@
 //!   ([`Error::ForeignBodies`]), because the bodies are bevy_rapier's.
 //! - The limits of [`lariat_bevy`](lariat_bevy#limits).
 
+#[cfg(feature = "mesh")]
+mod mesh;
+
 use bevy::ecs::intern::Interned;
 use bevy::ecs::schedule::ScheduleLabel;
 use bevy::prelude::*;
@@ -53,6 +56,8 @@ use bevy_rapier3d::prelude::{PhysicsSet, RapierConfiguration, RapierRigidBodyHan
 use core::mem::swap;
 pub use lariat_bevy;
 use lariat_bevy::{AfterEngine, BeforeEngine, BodyHandle, Cables, Error, Physics, install_in};
+#[cfg(feature = "mesh")]
+pub use mesh::RopeMeshPlugin;
 
 /// Attaches cables to the bodies of bevy_rapier, whose plugin must step in the same schedule.
 #[derive(Clone, Debug)]
