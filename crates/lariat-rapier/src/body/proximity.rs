@@ -13,7 +13,7 @@ use crate::scales::body::{PREDICTION_DISTANCES, STEPS_AHEAD};
 use ::nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
-use rapier::math::{Real, Vector};
+use rapier::math::{AngVector, Real, Vector};
 use rapier::parry::query::distance;
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
 
@@ -92,10 +92,11 @@ fn reaches(world: &PhysicsWorld, one: &Collider, two: &Collider, way: f64) -> bo
                 .map_or(true, |found| within(found.distance))
 }
 
-/// Returns by how much a point of a collider rotates at most within `dt` (s), in m.
+/// Returns by how much a point of a collider rotates at most within `dt` (s), in m: of a half-space
+/// that does not rotate by nothing, although its box has no end.
 fn turn(world: &PhysicsWorld, collider: &Collider, dt: f64) -> f64 {
     let body = collider.parent().and_then(|b| world.bodies.get(b));
-    body.map_or(0.0, |body| {
+    body.filter(|body| body.angvel() != AngVector::default()).map_or(0.0, |body| {
         let sphere = collider.compute_aabb().bounding_sphere();
         let radius = (sphere.center() - body.center_of_mass()).length() + sphere.radius();
         f64::from(body.angvel().length() * radius) * dt
@@ -172,25 +173,43 @@ fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
 }
 
 /// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
-/// is faster than `fastest` (m/s); `None` if it cannot. For pairs in contact it is the speed along
-/// the normal.
+/// is faster than `fastest` (m/s); `None` if it cannot. Of pairs in contact it is the speed of their
+/// points along the normal, of others an upper bound of that of any of their points.
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
     let velocity = vector(world.bodies[handle].linvel());
     let margin = f64::from(world.integration_parameters.prediction_distance());
     let speeds = pairs(world, handle).filter_map(|(own, other, pair)| {
         let relative = velocity - velocity_of(world, other);
-        let normals = pair.manifolds().iter().filter(|m| !m.points.is_empty()).map(|m| vector(m.data.normal));
-        let along = normals.map(|n| relative.dot(&n).abs()).reduce(f64::max);
         let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
         let meets = || {
             swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
                 && reaches(world, own, other, way())
         };
-        along.or_else(|| meets().then(|| relative.norm()))
+        closing_speed(world, pair)
+            .or_else(|| meets().then(|| relative.norm() + turn(world, own, 1.0) + turn(world, other, 1.0)))
     });
     let listed = speeds.reduce(f64::max);
     let unlisted = unlisted_collision(world, handle, (dt, fastest));
     listed.into_iter().chain(unlisted).reduce(f64::max)
+}
+
+/// Returns the largest relative speed in m/s along the normal at the points of contact of a pair;
+/// `None` without one.
+fn closing_speed(world: &PhysicsWorld, pair: &ContactPair) -> Option<f64> {
+    let collider = |handle: ColliderHandle| world.colliders.get(handle);
+    let (one, two) = (collider(pair.collider1)?, collider(pair.collider2)?);
+    let velocity = |c: &Collider, at: Vector| {
+        let body = c.parent().and_then(|b| world.bodies.get(b));
+        body.map_or_else(Vector3::zeros, |body| vector(body.velocity_at_point(at)))
+    };
+    let speeds = pair.manifolds().iter().flat_map(|manifold| {
+        let normal = vector(manifold.data.normal);
+        manifold.points.iter().map(move |point| {
+            let at = one.position() * point.local_p1;
+            (velocity(one, at) - velocity(two, at)).dot(&normal).abs()
+        })
+    });
+    speeds.reduce(f64::max)
 }
 
 /// Returns the speed in m/s of the fastest body that is awake.
