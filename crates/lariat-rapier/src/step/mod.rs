@@ -225,13 +225,16 @@ fn predict_islands(
             let moved = predictions.get(island).filter(|p| !p.refused && p.error.is_none())?;
             moved.snapshots.get(cable).map(Snapshot::positions)
         };
-        let met = finder.neighbours.complete(contents, &islands.list, before);
+        let mut anew = finder.neighbours.complete(contents, &islands.list, before);
+        for (island, prediction) in islands.list.iter().zip(predictions.iter()) {
+            anew |= waking::wake_moved(world, island, prediction, step.sleep_speed);
+        }
         let overload = breaks::first_overload(contents, &islands.list, predictions, (settings, host), step.h);
-        if !met && parts == 1 && overload.is_none() {
+        if !anew && parts == 1 && overload.is_none() {
             break step;
         }
-        // a mechanism turned otherwise, a cable broke, or cables met that were not expected to:
-        // they are united, and the step begins anew
+        // a mechanism turned otherwise, a cable broke, a body was woken, or cables met that were not
+        // expected to: they are united, and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
@@ -242,7 +245,7 @@ fn predict_islands(
         if parts > 1 {
             return Ok(Predicted::Turned(parts));
         }
-        if let Some(at) = overload.filter(|_| !met) {
+        if let Some(at) = overload.filter(|_| !anew) {
             return Ok(Predicted::Overloaded(at));
         }
     };
@@ -388,7 +391,7 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
     if !core::mem::take(&mut stepper.pending) {
         return;
     }
-    stepper.finder.end(world);
+    contents.listed = Some(world.colliders.len());
     contents.records.follow_kinematic(world);
     let h = f64::from(world.integration_parameters.dt);
     for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
