@@ -25,8 +25,8 @@ mod write;
 pub use report::Equilibrium;
 pub use solve::BodyForce;
 
-use crate::body::is_integrated;
 use crate::body::ledger::is_ledger;
+use crate::body::{give_mass, is_integrated};
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::Error;
@@ -56,6 +56,7 @@ pub(crate) fn equilibrium(
     options: EquilibriumOptions,
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
+    contents.held_bodies().for_each(|body| give_mass(world, body));
     let mut islands = Islands::default();
     let found = islands.update(contents, world, &[], &[]);
     // the stepper has not seen these changes

@@ -225,16 +225,13 @@ fn predict_islands(
             let moved = predictions.get(island).filter(|p| !p.refused && p.error.is_none())?;
             moved.snapshots.get(cable).map(Snapshot::positions)
         };
-        let mut anew = finder.neighbours.complete(contents, &islands.list, before);
-        for (island, prediction) in islands.list.iter().zip(predictions.iter()) {
-            anew |= waking::wake_moved(world, island, prediction, step.sleep_speed);
-        }
+        let met = finder.neighbours.complete(contents, &islands.list, before);
         let overload = breaks::first_overload(contents, &islands.list, predictions, (settings, host), step.h);
-        if !anew && parts == 1 && overload.is_none() {
+        if !met && parts == 1 && overload.is_none() {
             break step;
         }
-        // a mechanism turned otherwise, a cable broke, a body was woken, or cables met that were not
-        // expected to: they are united, and the step begins anew
+        // a mechanism turned otherwise, a cable broke, or cables met that were not expected to:
+        // they are united, and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
@@ -245,7 +242,7 @@ fn predict_islands(
         if parts > 1 {
             return Ok(Predicted::Turned(parts));
         }
-        if let Some(at) = overload.filter(|_| !anew) {
+        if let Some(at) = overload.filter(|_| !met) {
             return Ok(Predicted::Overloaded(at));
         }
     };

@@ -14,9 +14,6 @@
 //! attachment changes, or what acts on it: each effect says so
 //! ([`Effect::is_steady`](lariat_ancf::effect::Effect::is_steady)).
 //!
-//! Of several bodies some may be woken alone, a drum that a program lets go. One that sleeps on the
-//! same cables is woken before the step in which these would move it.
-//!
 //! Rapier wakes bodies within its step, by rules of which not all can be foreseen from outside.
 //! What it would be given for the prediction that the island rests stands in it meanwhile, as
 //! motors ([`Ledger`](crate::body::ledger::Ledger)): a woken body feels its cables in that step as

@@ -27,27 +27,6 @@ use lariat_ancf::island::Impedance;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Wakes the sleeping bodies of an island that its prediction moves at more than `speed` (m/s) at a
-/// pin: another body of it was woken. Returns whether there are any; the step begins anew with them.
-pub(super) fn wake_moved(world: &mut PhysicsWorld, island: &Island, prediction: &Prediction, speed: f64) -> bool {
-    let mut woken = false;
-    if prediction.sleep.asleep || prediction.integrator.is_none() || prediction.error.is_some() {
-        return woken;
-    }
-    for (m, handle) in island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?))) {
-        let Some(end) = prediction.end.get(m).filter(|_| world.bodies[handle].is_sleeping()) else { continue };
-        let moves = |pin: usize| {
-            let arm = end.rotation * island.pins[pin].anchor;
-            (end.velocity + end.angular_velocity.cross(&arm)).norm() > speed
-        };
-        if island.pins_on(m).any(moves) {
-            world.islands.wake_up(&mut world.bodies, handle, true);
-            woken = true;
-        }
-    }
-    woken
-}
-
 /// Takes over what Rapier's step of `h` (s) made of sleeping bodies that it woke: they felt the
 /// force of the cables at rest and the impedance; what the motors exerted beyond that force acts on
 /// the cables.
