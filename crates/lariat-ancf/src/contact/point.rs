@@ -47,6 +47,8 @@ pub(in crate::contact) struct ContactPoint {
     pub closing: f64,
     /// Whether losses pay for that, not what moved the obstacle.
     pub pays: bool,
+    /// Energy in J that others gave when they moved the obstacle, for closing the offset.
+    pub given: f64,
     /// Whether it touched when the last step ended.
     pub touched: bool,
     /// Normal force in N at the end of the last step.
@@ -94,12 +96,15 @@ impl ContactPoint {
         self.free_way = if memory.is_none() { -depth } else { 0.0 };
         let difference = depth.max(0.0) - memory.map_or(0.0, |memory| memory.depth);
         (self.offset, self.closing, self.pays) = (difference.max(0.0), 0.0, false);
+        self.given = memory.map_or(0.0, |memory| memory.given);
         self.touched = memory.is_some();
         self.remembered = memory.map_or(0.0, |memory| memory.force);
         if let Some(memory) = memory {
             let difference = depth - memory.depth;
             if obstacle.moved && difference > -LIFTED * self.reach {
-                (self.offset, self.closing) = (difference, difference * (obstacle.h / CLOSING_TIME).min(1.0));
+                self.given = (memory.given + memory.force * (difference - memory.offset)).max(0.0);
+                self.offset = difference;
+                self.closing = (difference * (obstacle.h / CLOSING_TIME).min(1.0)).min(self.affordable(memory.depth));
                 self.remembered = 0.0;
             }
             self.spring = memory.spring;
@@ -107,6 +112,14 @@ impl ContactPoint {
             self.bound = self.friction * memory.force;
         }
         self.rebound = Rebound::default();
+    }
+
+    /// Returns by how much in m it can become deeper than a depth (m) by the energy that others
+    /// gave.
+    fn affordable(&self, depth: f64) -> f64 {
+        let depth = depth.max(0.0);
+        let energy = self.law.at(depth).energy + self.given / self.weight;
+        (self.law.depth_of_energy(energy) - depth).max(0.0)
     }
 
     /// Returns whether a step of length `h` (s) resolves a touch at a speed (m/s).
@@ -301,6 +314,7 @@ impl ContactPoint {
             normal: obstacle.end.rotation.tr_mul(&now.normal),
             depth: now.depth,
             offset: self.offset - self.closing,
+            given: (self.given - if self.pays { 0.0 } else { now.normal_force * self.closing }).max(0.0),
             spring: obstacle.middle.tr_mul(&now.spring),
             force: now.normal_force,
             energy: now.energy,

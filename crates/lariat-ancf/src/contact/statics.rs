@@ -204,6 +204,7 @@ impl StaticContact {
                     normal: sample.axes.inverse() * sample.normal,
                     depth: sample.depth,
                     offset: 0.0,
+                    given: 0.0,
                     spring: Vector3::zeros(),
                     force: sample.force,
                     energy: sample.energy,

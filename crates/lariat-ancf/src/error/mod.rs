@@ -104,7 +104,7 @@ pub enum Error {
         reason: &'static str,
     },
     /// Something that a cable with a reel does not carry.
-    #[error("cable {cable:?}: {what} and a reel do not go together yet")]
+    #[error("cable {cable:?}: a reel does not go with {what}")]
     NotWithReel {
         /// Name of the cable.
         cable: String,

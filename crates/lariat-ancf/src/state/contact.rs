@@ -27,6 +27,10 @@ pub struct ContactMemory {
     /// The offset in m.
     #[serde(default)]
     pub(crate) offset: f64,
+    /// Energy in J that others gave when they moved the obstacle against the force, and that
+    /// closing the offset has not taken up yet.
+    #[serde(default)]
+    pub(crate) given: f64,
     /// Spring of friction in m, in the obstacle's axes.
     pub(crate) spring: Vector3<f64>,
     /// Normal force in N.
@@ -58,8 +62,17 @@ impl ContactMemory {
     pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
         let element = self.element as usize;
         require("element of a contact", element as f64, element < elements, "one of the cable")?;
-        let numbers =
-            [self.xi, self.weight, self.depth, self.offset, self.force, self.energy, self.friction_power, self.came];
+        let numbers = [
+            self.xi,
+            self.weight,
+            self.depth,
+            self.offset,
+            self.given,
+            self.force,
+            self.energy,
+            self.friction_power,
+            self.came,
+        ];
         let vectors = [self.normal, self.spring, self.direction, self.friction];
         let mut all = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
         all.try_for_each(|x| require("contact", x, true, "a number"))

@@ -139,7 +139,9 @@ fn what_makes_no_reel_is_a_typed_error_and_changes_nothing() {
     cable.add_reel(At::End, Reel::default()).unwrap();
     assert!(matches!(cable.sample_flow(|r| r), Err(Error::NotWithReel { what: "a sampled flow", .. })));
     let water = Buoyancy { area: Some(1e-4), ..Buoyancy::new(1000.0, 1.0) };
-    assert!(matches!(cable.set_buoyancy(water), Err(Error::NotWithReel { what: "added mass", .. })));
+    assert!(
+        matches!(cable.set_buoyancy(water), Err(Error::NotWithReel { what, .. }) if what.starts_with("added mass"))
+    );
     cable.set_drag(None).unwrap();
     assert!(matches!(cable.add_reel(At::End, Reel::default()), Err(Error::ReelPlace { .. })));
     assert!(matches!(cable.set_effects(effects), Err(Error::NotWithReel { .. })));

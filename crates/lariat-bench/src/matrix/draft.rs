@@ -84,6 +84,8 @@ pub struct Draft {
     pub coil: bool,
     /// Whether it hangs straight down, and what it can touch is beside it, at rest.
     pub hangs: bool,
+    /// Whether it is to be in equilibrium: what could only turn is locked.
+    pub rests: bool,
     /// When what acts begins to act, in s.
     pub from: f64,
     /// What holds the start.
@@ -124,6 +126,7 @@ impl Draft {
             floats,
             coil: features.contains(&Feature::TouchesItself),
             hangs: false,
+            rests: false,
             from: 0.0,
             start: Hold::Free,
             end: Hold::Free,
@@ -217,7 +220,8 @@ impl Draft {
             Feature::Cut => self.cut = true,
             Feature::Game => self.fidelity = Some(Fidelity::Game),
             Feature::Engineering => self.fidelity = Some(Fidelity::Engineering),
-            Feature::Statics | Feature::Snapshot | Feature::Sleep | Feature::ErrorTarget => {}
+            Feature::Statics => self.rests = true,
+            Feature::Snapshot | Feature::Sleep | Feature::ErrorTarget => {}
         }
     }
 

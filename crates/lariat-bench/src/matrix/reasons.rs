@@ -5,10 +5,15 @@ use super::feature::{Feature, Pair};
 /// Returns the reason for which a pair is none; `None` for a pair that must run.
 pub fn reason(pair: Pair) -> Option<&'static str> {
     let both = |among: &[Feature]| pair.both().iter().all(|feature| among.contains(feature));
+    let winds = |feature: &Feature| feature.is_reel() || *feature == Feature::Sheave;
     match pair {
         _ if both(&[Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) => Some("a cable has one axial law"),
         _ if both(&[Feature::Drag, Feature::Current]) => Some("a fluid rests or flows"),
         _ if both(&[Feature::Game, Feature::Engineering]) => Some("a cable has one integrator"),
+        // it has added mass
+        _ if pair.has(Feature::Buoyancy) && pair.both().iter().any(winds) => {
+            Some("added mass acts along a cable as across it, and what comes out along itself moves no fluid")
+        }
         _ => None,
     }
 }

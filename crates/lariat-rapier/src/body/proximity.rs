@@ -12,8 +12,8 @@ use crate::convert::{to_vector, vector};
 use crate::scales::body::{PREDICTION_DISTANCES, STEPS_AHEAD};
 use ::nalgebra::Vector3;
 use rapier::dynamics::{CoefficientCombineRule, RigidBodyHandle};
-use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactPair};
-use rapier::math::{Real, Vector};
+use rapier::geometry::{Aabb, BoundingVolume, Collider, ColliderHandle, ContactManifold, ContactPair};
+use rapier::math::{AngVector, Real, Vector};
 use rapier::parry::query::{contact, distance};
 use rapier::pipeline::{PhysicsWorld, QueryFilter};
 
@@ -92,10 +92,11 @@ fn reaches(world: &PhysicsWorld, one: &Collider, two: &Collider, way: f64) -> bo
                 .map_or(true, |found| within(found.distance))
 }
 
-/// Returns by how much a point of a collider rotates at most within `dt` (s), in m.
+/// Returns by how much a point of a collider rotates at most within `dt` (s), in m: of a half-space
+/// that does not rotate by nothing, although its box has no end.
 fn turn(world: &PhysicsWorld, collider: &Collider, dt: f64) -> f64 {
     let body = collider.parent().and_then(|b| world.bodies.get(b));
-    body.map_or(0.0, |body| {
+    body.filter(|body| body.angvel() != AngVector::default()).map_or(0.0, |body| {
         let sphere = collider.compute_aabb().bounding_sphere();
         let radius = (sphere.center() - body.center_of_mass()).length() + sphere.radius();
         f64::from(body.angvel().length() * radius) * dt
@@ -196,14 +197,15 @@ pub(crate) fn for_each_push(
         let relative = velocity - velocity_of(world, other);
         for manifold in pair.manifolds().iter().filter(|m| !m.points.is_empty()) {
             let normal = vector(manifold.data.normal);
-            f(relative.dot(&normal).abs(), &|| slips(own, other).then_some(normal));
+            f(closing_speed(world, pair, manifold), &|| slips(own, other).then_some(normal));
         }
         let way = || relative.norm() * dt + turn(world, own, dt) + turn(world, other, dt);
         if !touches(pair)
             && swept(own.compute_aabb(), &(relative * dt), margin).intersects(&other.compute_aabb())
             && reaches(world, own, other, way())
         {
-            f(relative.norm(), &|| slips(own, other).then(|| direction(own, other)).flatten());
+            let speed = relative.norm() + turn(world, own, 1.0) + turn(world, other, 1.0);
+            f(speed, &|| slips(own, other).then(|| direction(own, other)).flatten());
         }
     }
     for (own, other) in within_reach(world, handle, (dt, fastest)) {
@@ -218,12 +220,29 @@ fn direction(own: &Collider, other: &Collider) -> Option<Vector3<f64>> {
 }
 
 /// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
-/// is faster than `fastest` (m/s); `None` if it cannot. For pairs in contact it is the speed along
-/// the normal.
+/// is faster than `fastest` (m/s); `None` if it cannot. Of pairs in contact it is the speed of their
+/// points along the normal, of others an upper bound of that of any of their points.
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, within: (f64, f64)) -> Option<f64> {
     let mut speed: Option<f64> = None;
     for_each_push(world, handle, within, |push, _| speed = Some(speed.unwrap_or(0.0).max(push)));
     speed
+}
+
+/// Returns the largest relative speed in m/s along the normal at the points of a manifold of a pair;
+/// 0 if one of its colliders is gone.
+fn closing_speed(world: &PhysicsWorld, pair: &ContactPair, manifold: &ContactManifold) -> f64 {
+    let [one, two] = [pair.collider1, pair.collider2].map(|handle| world.colliders.get(handle));
+    let (Some(one), Some(two)) = (one, two) else { return 0.0 };
+    let velocity = |c: &Collider, at: Vector| {
+        let body = c.parent().and_then(|b| world.bodies.get(b));
+        body.map_or_else(Vector3::zeros, |body| vector(body.velocity_at_point(at)))
+    };
+    let normal = vector(manifold.data.normal);
+    let speeds = manifold.points.iter().map(|point| {
+        let at = one.position() * point.local_p1;
+        (velocity(one, at) - velocity(two, at)).dot(&normal).abs()
+    });
+    speeds.fold(0.0, f64::max)
 }
 
 /// Returns the speed in m/s of the fastest body that is awake.

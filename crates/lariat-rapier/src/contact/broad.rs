@@ -35,8 +35,6 @@ pub(crate) struct Finder {
     found: Vec<ColliderHandle>,
     /// Colliders of kinematic bodies that move in the step, with the boxes that they sweep.
     moving: Vec<(ColliderHandle, Aabb)>,
-    /// Number of colliders that Rapier's tree knows; `None` before its first step.
-    known: Option<usize>,
     /// Whether these are all.
     listed: bool,
     /// Largest speed in m/s of a point of a dynamic body that is awake.
@@ -60,7 +58,7 @@ impl Finder {
             return;
         }
         self.surfaces.retain(|collider| world.colliders.contains(collider));
-        self.listed = self.known == Some(world.colliders.len());
+        self.listed = contents.listed == Some(world.colliders.len());
         self.fastest = fastest(world);
         for (_, body) in world.bodies.iter().filter(|(_, body)| body.is_kinematic() && body.is_enabled()) {
             let still = body.next_position() == body.position()
@@ -103,11 +101,6 @@ impl Finder {
     ) -> Option<&'a Collider> {
         let filtered = self.filter.as_ref().is_some_and(|filter| !filter.allows(cable, handle));
         world.colliders.get(handle).filter(|collider| !filtered && rules.allow(collider))
-    }
-
-    /// Ends a Rapier step: its tree knows all colliders.
-    pub fn end(&mut self, world: &PhysicsWorld) {
-        self.known = Some(world.colliders.len());
     }
 
     /// Gives a cable of an island the colliders that it can reach in a Rapier step of `h` (s), at a

@@ -97,6 +97,10 @@ pub(crate) struct Contents {
     pub mark: Option<WorldMark>,
     /// The world's gravity when it was last copied to the cables.
     gravity: Option<Vector>,
+    /// Number of colliders in Rapier's tree, all of them after each of its steps; `None` before the
+    /// first one.
+    #[serde(default)]
+    pub listed: Option<usize>,
     /// Whether cables, attachments or junctions changed since islands were last found.
     #[serde(skip)]
     pub changed: bool,

@@ -7,8 +7,8 @@
 //!
 //! # Validity
 //! Bodies are where their [joints](joints) allow; those that joints connect to a body with a cable
-//! move with it. Over sheaves runs what the pulls ask for; drums are an error. No contacts of
-//! bodies: a body that has one is an error, before or after the search. Cables with contact lie,
+//! move with it. Over sheaves runs what the pulls ask for; a drum must be locked in
+//! its rotation, or it has no equilibrium. No contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie,
 //! without friction, on the colliders of all bodies that stay where they are: fixed, kinematic, and
 //! dynamic ones that do not move with cables. One that would run through a collider, over a sharp
 //! edge or something thin that its samples do not see, is an error. Contact of cables with each
@@ -25,8 +25,8 @@ mod write;
 pub use report::Equilibrium;
 pub use solve::BodyForce;
 
-use crate::body::is_integrated;
 use crate::body::ledger::is_ledger;
+use crate::body::{give_mass, is_integrated};
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::Error;
@@ -56,6 +56,7 @@ pub(crate) fn equilibrium(
     options: EquilibriumOptions,
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
+    contents.held_bodies().for_each(|body| give_mass(world, body));
     let mut islands = Islands::default();
     let found = islands.update(contents, world, &[], &[]);
     // the stepper has not seen these changes

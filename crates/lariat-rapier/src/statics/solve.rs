@@ -82,7 +82,7 @@ pub(super) fn solve(
             }
         });
     }
-    let links = Links { pins: &island.pins, joints: &joints, sheaves: &sheaves };
+    let links = Links { pins: &island.pins, joints: &joints, sheaves: &sheaves, drums: &island.drums };
     let reports = if members.is_empty() && sheaves.is_empty() {
         cables
             .iter_mut()

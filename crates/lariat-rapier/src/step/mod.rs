@@ -389,7 +389,7 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
     if !core::mem::take(&mut stepper.pending) {
         return;
     }
-    stepper.finder.end(world);
+    contents.listed = Some(world.colliders.len());
     contents.records.follow_kinematic(world);
     let h = f64::from(world.integration_parameters.dt);
     for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {

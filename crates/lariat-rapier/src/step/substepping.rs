@@ -7,6 +7,7 @@
 //! h |w|/(2 N) <= 0.005            of a body on impulse joints
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
 //! h v <= l/2                      of a body that collides at v, l the elements at its pins
+//! h v <= r                        of one whose cables have contact, or that cables press on, r their radius
 //! ```
 //! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:
@@ -24,7 +25,10 @@
 //! by that asks for no split: of a body that it pulls into a stop, r = F, h w <= 0.61.
 //!
 //! *Blows.* A cable follows a body that deviates by its linear response. A collision displaces an
-//! end by v h at most; by more than half an element it would fold that.
+//! end by v h at most, v that of the points that collide; by more than half an element it would
+//! fold that. A cable that touches what it is tied to is found there by where the body was expected:
+//! displaced by more than its radius its centre line would be inside, or on the other side of an
+//! edge.
 //!
 //! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with
 //! which that begins. If they change in it, by a line that snaps taut, bodies on joints have turned
@@ -66,6 +70,7 @@ use crate::scales::step::{DEVIATION_SHARE, JOINTED_STEPS, MAX_LOSS, MAX_PHASE, M
 use crate::step::settings::{Settings, pieces};
 use crate::step::stiffness::{Stiffness, on_body};
 use ::nalgebra::Vector3;
+use lariat_ancf::coupling::Coupling;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
@@ -106,32 +111,36 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     if contents.attachments.values().any(jointed) {
         needed = needed.max(JOINTED_STEPS * f64::from(pieces(dt)));
     }
-    let needed = needed.max(rotation(contents, world, dt)).max(pressed(contents, world, dt));
+    let fastest = || fastest.unwrap_or_else(|| proximity::fastest(world));
+    let needed = needed.max(rotation(contents, world, dt)).max(pressed(contents, world, (dt, fastest)));
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
 
 /// Returns the number of steps of `dt` (s) that bodies need which cables press on others, so that
-/// none vibrates between them. A cable that touches a body is as stiff as one that is attached to
-/// it in the middle.
-fn pressed(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
-    let mut stiffnesses: Vec<(RigidBodyHandle, f64)> = Vec::new();
+/// none vibrates between them, and none that collides is displaced by more than the radius of the
+/// cable. A cable that touches a body is as stiff as one that is attached to it in the middle.
+fn pressed(contents: &Contents, world: &PhysicsWorld, (dt, fastest): (f64, impl Fn() -> f64)) -> f64 {
+    let mut bodies: Vec<(RigidBodyHandle, f64, f64)> = Vec::new();
     for slot in contents.cables.values() {
         let compliance: f64 = slot.cable.elements().iter().map(|e| e.length / e.section.axial_stiffness).sum();
+        let (stiffness, radius) = (4.0 / compliance, slot.cable.contact_radius());
         let mut last = None;
         for touch in slot.cable.contacts() {
             let body = world.colliders.get(contact::collider(touch.obstacle)).and_then(|c| c.parent());
             let Some(body) = body.filter(|body| is_integrated(world, *body) && last != Some(*body)) else { continue };
             last = Some(body);
-            match stiffnesses.iter_mut().find(|(known, _)| *known == body) {
-                Some((_, sum)) => *sum += 4.0 / compliance,
-                None => stiffnesses.push((body, 4.0 / compliance)),
+            match bodies.iter_mut().find(|(known, ..)| *known == body) {
+                Some((_, sum, least)) => (*sum, *least) = (*sum + stiffness, least.min(radius)),
+                None => bodies.push((body, stiffness, radius)),
             }
         }
     }
-    let near = stiffnesses.iter().filter(|(body, _)| proximity::may_deviate(world, *body));
-    let count = |(body, stiffness): &(RigidBodyHandle, f64)| {
-        dt * (stiffness * f64::from(world.bodies[*body].mass_properties().local_mprops.inv_mass)).sqrt() / MAX_PHASE
+    let near = bodies.iter().filter(|(body, ..)| proximity::may_deviate(world, *body));
+    let count = |(body, stiffness, radius): &(RigidBodyHandle, f64, f64)| {
+        let inverse_mass = f64::from(world.bodies[*body].mass_properties().local_mprops.inv_mass);
+        let speed = proximity::collision(world, *body, (dt, fastest())).unwrap_or(0.0);
+        (dt * (stiffness * inverse_mass).sqrt() / MAX_PHASE).max(dt * speed / radius)
     };
     near.map(count).fold(0.0, f64::max)
 }
@@ -159,7 +168,8 @@ fn max_deviation(contents: &Contents, a: &Attachment) -> f64 {
     let Some(slot) = contents.slot(a.cable) else { return f64::INFINITY };
     let elements = slot.cable.elements();
     let next = &elements[a.node.saturating_sub(1).min(elements.len() - 1)..(a.node + 1).min(elements.len())];
-    DEVIATION_SHARE * next.iter().map(|element| element.length).fold(f64::INFINITY, f64::min)
+    let folds = DEVIATION_SHARE * next.iter().map(|element| element.length).fold(f64::INFINITY, f64::min);
+    if slot.cable.effects().contact.is_some() { folds.min(slot.cable.contact_radius()) } else { folds }
 }
 
 /// A body that may deviate from its prediction.

@@ -109,3 +109,36 @@ fn what_is_no_drum_is_refused_by_name() {
     assert!(matches!(limited, Err(Error::Cable(Mechanics::InvalidValue { .. }))), "{limited:?}");
     assert!(set.drums().next().is_none() && set.get(rope).unwrap().reel(At::End).is_none());
 }
+
+/// A rope on a drum that is locked in its rotation is in equilibrium as one that is tied where it
+/// leaves, and stays there; on one that is free to turn it is refused.
+///
+/// *Source.* A drum that does not turn gives no rope: the boundary conditions are the same. The pull
+/// of a weight on a free one has nothing that balances it.
+#[test]
+fn a_drum_that_cannot_turn_is_a_fixed_end_in_statics() {
+    let mut ends = Vec::new();
+    for on_drum in [true, false] {
+        let mut world = PhysicsWorld::new();
+        let mut set = CableSet::new();
+        let ground = world.insert_body(RigidBodyBuilder::fixed());
+        let winch = drum(&mut world, 0.2, true);
+        let (rope, load) = hoist(&mut set, &mut world, 10.0, (ground, winch));
+        if on_drum {
+            let outcome = set.equilibrium(&mut world);
+            assert!(matches!(outcome, Err(Error::Cable(Mechanics::ReelPlace { .. }))), "{outcome:?}");
+            world.bodies[winch].set_locked_axes(LockedAxes::all(), true);
+        } else {
+            set.remove_drum(rope, At::End).unwrap();
+        }
+        set.equilibrium(&mut world).unwrap();
+        let rest = set.get(rope).unwrap().positions().to_vec();
+        run(&mut world, &mut set, 60);
+        let now = set.get(rope).unwrap().positions().to_vec();
+        let moved = rest.iter().zip(&now).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(moved < 1e-6, "{moved} m in a second");
+        ends.push((rest, world.bodies[load].translation().y));
+    }
+    let apart = ends[0].0.iter().zip(&ends[1].0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-8 && (ends[0].1 - ends[1].1).abs() < 1e-6, "{apart} m");
+}

@@ -104,8 +104,7 @@ fn a_slack_rope_that_is_clear_hangs_along_gravity() {
 /// *Source.* Balance of the rope: what hangs between two points on more length than their distance
 /// pulls less at its lower end than at its upper one, and at both together its weight; over an edge
 /// of the crate friction holds exp(mu pi/2) times as much (Euler-Eytelwein). A crate that lies on its
-/// rope puts at most its weight on it. At 1/30 s a crate that comes down on its rope can pinch it so
-/// that it holds more: those are printed, and not judged.
+/// rope puts at most its weight on it.
 #[test]
 fn a_rope_at_rest_beside_its_crate_has_no_tension_against_it() {
     let hooks = [[-0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [-0.1, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.1, -0.05, 0.1]];
@@ -137,11 +136,44 @@ fn a_rope_at_rest_beside_its_crate_has_no_tension_against_it() {
             let lies_on_it = under >= weight;
             let most = if lies_on_it { 98.1 + weight } else { weight * (0.4 * core::f64::consts::FRAC_PI_2).exp() };
             (all, clear) = (all + 1, clear + u32::from(!lies_on_it));
-            if hook >= most && rate >= 60 {
+            if hook >= most {
                 wrong.push(case);
             }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(2 * clear > all, "{clear} of {all} crates do not lie on their rope");
+}
+
+/// A crate that comes down on its own slack rope makes no energy, however long the host step: what
+/// is pinched between it and the ground stores no more than was given to it.
+///
+/// *Source.* Conservation of energy: nothing but gravity works on crate and rope, so their total never
+/// rises; by a thousandth of what the fall gives, for the pushes by which Rapier takes bodies out of
+/// each other.
+#[test]
+fn a_crate_that_comes_down_on_its_rope_makes_no_energy() {
+    let hooks = [[-0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [-0.1, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.1, -0.05, 0.1]];
+    let mut wrong = Vec::new();
+    for (k, anchor) in hooks.into_iter().enumerate() {
+        for (length, elements, rate) in [(3.4, 12, 30), (3.8, 16, 30), (3.8, 24, 30), (3.6, 24, 20), (3.8, 48, 15)] {
+            let cube = SharedShape::cuboid(0.1, 0.1, 0.1);
+            let (mut world, mut set, _) = tied(cube, 10.0, anchor, length, elements, false);
+            world.integration_parameters.dt = 1.0 / rate as Real;
+            let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Y)).friction(0.5);
+            world.insert(RigidBodyBuilder::fixed().translation(Vector::new(0.0, -2.5, 0.0)), ground);
+            let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+            for _ in 0..3 * rate {
+                set.step(&mut world).unwrap();
+                let now = set.energy(&world).unwrap().total();
+                (least, most) = (least.min(now), most.max(now - least));
+            }
+            let case = format!("hook {k}, {length} m in {elements}, 1/{rate} s: {most:.2e} J made");
+            println!("{case}");
+            if most > 1e-3 * 98.1 * 2.4 {
+                wrong.push(case);
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

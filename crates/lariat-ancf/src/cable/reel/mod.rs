@@ -306,7 +306,10 @@ impl Model {
         };
         let refused = [
             ("a sampled flow", self.effects.drag.as_ref().is_some_and(|drag| !drag.flow.samples.is_empty())),
-            ("added mass", self.effects.buoyancy.is_some_and(|buoyancy| buoyancy.added_mass > 0.0)),
+            (
+                "added mass: it acts along the cable, too, and what comes out along itself moves no fluid",
+                self.effects.buoyancy.is_some_and(|buoyancy| buoyancy.added_mass > 0.0),
+            ),
             (
                 "line loads on a part of the cable",
                 self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),

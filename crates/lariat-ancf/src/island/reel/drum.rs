@@ -40,6 +40,17 @@ impl Drum {
         pins.iter().find(|pin| pin.cable == cable && pin.node == eye).map(|pin| pin.body)
     }
 
+    /// Returns whether it, or what holds the eye, can turn.
+    pub(in crate::island) fn can_turn(
+        &self,
+        cables: &[&mut Cable],
+        bodies: &[RigidBody],
+        pins: &[PinConstraint],
+    ) -> bool {
+        let turns = |body: usize| bodies[body].free[3..].contains(&true);
+        turns(self.body) || self.holder(cables, pins).is_some_and(turns)
+    }
+
     /// Returns it for a step.
     pub(super) fn winch(&self, cables: &[&mut Cable], pins: &[PinConstraint]) -> Winch {
         let (cable, side) = self.end();

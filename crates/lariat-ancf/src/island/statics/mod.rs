@@ -21,8 +21,9 @@
 //!
 //! # Validity
 //!
-//! Loads on bodies that are constant in world axes. No drums that are bodies: one that is free to
-//! turn rests only where something else balances the pull. Cables touch obstacles that stand still,
+//! Loads on bodies that are constant in world axes. A drum that is a body must not turn, nor what
+//! holds its eye: one that is free to turn rests only where something else balances the pull. Cables
+//! touch obstacles that stand still,
 //! without friction; contact of the bodies, and of cables with them, must be known to the caller.
 //! Modes without stiffness, such as a turn about a rope, keep their place.
 //!
@@ -46,12 +47,10 @@ pub use joint::{FREE, JointFrame, StaticJoint};
 use super::body::RigidBody;
 use super::hold::vector;
 use super::pin::{PinConstraint, check, is_on_free_body};
-use super::reel::{self, Sheave};
+use super::reel::{self, Drum, Sheave};
 use crate::cable::Cable;
-use crate::element::side::Side;
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::island::layout::Layout;
-use crate::reel::Feed;
 use crate::scales::statics::PULLS;
 use crate::statics::{Continued, EquilibriumOptions, EquilibriumReport, find};
 use nalgebra::Vector3;
@@ -67,6 +66,8 @@ pub struct Links<'a> {
     pub joints: &'a [StaticJoint],
     /// Sheaves between cables.
     pub sheaves: &'a [Sheave],
+    /// Drums that ends of cables are on.
+    pub drums: &'a [Drum],
 }
 
 /// Moves cables and bodies, held together by `links`, to static equilibrium under gravity, the full
@@ -75,23 +76,24 @@ pub struct Links<'a> {
 /// that the cables may have other nodes than before.
 ///
 /// # Errors
-/// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins
-/// and sheaves that do not fit. Cables and bodies are then as before.
+/// [`Error::NoEquilibrium`] if none is found, [`Error::ReelPlace`] for a drum that can turn, and as
+/// [`Island::step`](super::Island::step) for pins, sheaves and drums that do not fit. Cables and
+/// bodies are then as before.
 pub fn equilibrium(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],
-    Links { pins, joints, sheaves }: Links<'_>,
+    Links { pins, joints, sheaves, drums }: Links<'_>,
     options: EquilibriumOptions,
 ) -> Result<EquilibriumReport, Error> {
     require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
     check(cables, bodies, pins)?;
     joints.iter().try_for_each(|joint| joint.check(bodies.len()))?;
-    let on_drum = |cable: &Cable, side| cable.model.reels.get(side).is_some_and(|reel| reel.feed == Feed::BodyDrum);
-    if let Some(cable) = cables.iter().find(|cable| Side::BOTH.iter().any(|&side| on_drum(cable, side))) {
-        let reason = "its end is on a drum, which turns until what turns it balances the pull: statics hold no drum";
-        return Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
+    reel::check(cables, bodies, pins, (sheaves, drums))?;
+    if let Some(drum) = drums.iter().find(|drum| drum.can_turn(cables, bodies, pins)) {
+        let reason = "its end is on a drum that is free to turn, which rests only where something else balances the \
+                      pull: lock its rotation and that of what holds the eye";
+        return Err(Error::ReelPlace { cable: cables[drum.cable.0].name().to_string(), reason });
     }
-    reel::check(cables, bodies, pins, (sheaves, &[]))?;
     if let Some(cable) = cables.iter().find(|cable| !cable.segments().is_empty()) {
         let by = "by an equilibrium of cables and bodies together".to_string();
         return Err(Error::TorsionPlace { cable: cable.name().to_string(), by });

@@ -202,8 +202,8 @@ impl Scene {
         let own = MassProperties::new(Vector::ZERO, 2.0, Vector::splat(inertia));
         let axes = LockedAxes::TRANSLATION_LOCKED | LockedAxes::ROTATION_LOCKED_X | LockedAxes::ROTATION_LOCKED_Y;
         let beside = eye + Vector3::new(0.0, DRUM, 0.0);
-        // one that hangs is let go when it changes
-        let axes = if draft.hangs { axes | LockedAxes::ROTATION_LOCKED } else { axes };
+        // one that hangs is let go when it changes; one that can turn has no equilibrium
+        let axes = if draft.hangs || draft.rests { axes | LockedAxes::ROTATION_LOCKED } else { axes };
         let wheel =
             RigidBodyBuilder::dynamic().additional_mass_properties(own).locked_axes(axes).can_sleep(draft.hangs);
         let wheel = self.physics.insert_body(wheel.translation(to_rapier(beside.into())));
