@@ -34,7 +34,7 @@ impl Cable {
     /// for torsion with another one. The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         let mut integrator = self.integrator();
-        let coupled = effects.contact.is_some() || effects.torsion.is_some();
+        let coupled = effects.need_discrete_gradient();
         if coupled && self.default_integrator {
             integrator = self.integrator_for(Fidelity::Game);
         } else if coupled && integrator == Integrator::default() {

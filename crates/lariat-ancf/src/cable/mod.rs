@@ -247,7 +247,7 @@ impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator {
         let (choice, model) = (choice.into(), &self.model);
-        let coupled = model.effects.contact.is_some() || model.effects.torsion.is_some() || model.reels.have_laws();
+        let coupled = model.effects.need_discrete_gradient() || model.reels.have_laws();
         if choice == Fidelity::Engineering && coupled {
             return Integrator::COUPLED;
         }
