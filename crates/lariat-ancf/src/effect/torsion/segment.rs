@@ -17,6 +17,7 @@
 use super::Torsion;
 use super::element::{self, COORDINATES, TwistChange, twist_change, twist_hessian};
 use super::lengths::Lengths;
+use super::stranded::{Strands, elongation, elongation_gradient, elongation_hessian};
 use crate::linalg::BlockTridiagonal;
 use crate::section::Element;
 use crate::state::SegmentTwist;
@@ -26,6 +27,8 @@ use crate::state::SegmentTwist;
 pub(crate) struct CurveChange {
     /// Twist in rad.
     pub angle: f64,
+    /// What the elongation of a [stranded](super::stranded) rope counts as twist, in rad.
+    pub stretch: f64,
     /// Number of pairs that slip.
     pub slips: u64,
     /// Its secants in rad/m by the lengths of the elements at eyes, of the start and of the end of
@@ -40,13 +43,33 @@ pub(crate) struct Segment {
     pub nodes: [usize; 2],
     /// K in N m.
     pub stiffness: f64,
+    /// Where tension makes torque.
+    pub strands: Option<Strands>,
 }
 
 impl Segment {
     /// Returns that between two nodes that hold the spin of a cable, ascending.
     pub fn between(torsion: &Torsion, elements: &[Element], nodes: [usize; 2]) -> Self {
-        let length: f64 = elements[nodes[0]..nodes[1]].iter().map(|element| element.length).sum();
-        Segment { nodes, stiffness: torsion.stiffness / length }
+        let (own, strands) = (&elements[nodes[0]..nodes[1]], Strands::of(torsion));
+        let stiffness = match strands {
+            None => torsion.stiffness / own.iter().map(|element| element.length).sum::<f64>(),
+            Some(strands) => own.iter().map(|e| e.length / strands.torsional(e)).sum::<f64>().recip(),
+        };
+        Segment { nodes, stiffness, strands }
+    }
+
+    /// Returns the twist in rad that makes the torque at a twist of the material: that of the
+    /// elongation of a [stranded](super::stranded) rope with it.
+    pub fn loaded(&self, elements: &[Element], q: &[f64], twist: f64) -> f64 {
+        let Some(strands) = self.strands else { return twist };
+        let of =
+            |e: usize| strands.share(&elements[e]) * elongation(&q[6 * e..6 * e + COORDINATES], elements[e].length);
+        twist + self.elements().map(of).sum::<f64>()
+    }
+
+    /// Returns the torque in N m at a twist of the material in rad.
+    pub fn torque(&self, elements: &[Element], q: &[f64], twist: f64) -> f64 {
+        self.stiffness * self.loaded(elements, q, twist)
     }
 
     /// Returns the numbers of the elements.
@@ -93,6 +116,13 @@ impl Segment {
             }
             secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
         });
+        let Some(strands) = self.strands else { return sum };
+        self.for_each(|e, at, own| {
+            let (element, mean) = (lengths.element(e), |i: usize| q[at.start + i] + 0.5 * step[at.start + i]);
+            elongation_gradient(mean, element.length, strands.share(element), &mut part);
+            sum.stretch += step[at.clone()].iter().zip(&part).map(|(d, g)| d * g).sum::<f64>();
+            secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
+        });
         sum
     }
 
@@ -110,6 +140,12 @@ impl Segment {
         let mut part = [0.0; COORDINATES];
         self.for_each(|e, at, own| {
             element::twist_gradient(&q[at], elements[e].length, &mut part);
+            gradient[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
+        });
+        let Some(strands) = self.strands else { return };
+        self.for_each(|e, at, own| {
+            let (length, share) = (elements[e].length, strands.share(&elements[e]));
+            elongation_gradient(|i| q[at.start + i], length, share, &mut part);
             gradient[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
         });
     }
@@ -146,6 +182,19 @@ impl Segment {
                 }
             }
         });
+        let Some(strands) = self.strands else { return };
+        for e in self.elements() {
+            let (element, share) = (lengths.element(e), strands.share(lengths.element(e)));
+            let entry = |row: usize, column: usize| factor * share * elongation_hessian(row, column, element.length);
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                for x in 0..3 {
+                    let (r, c) = (3 * row + x, 3 * column + x);
+                    matrix.diag[e].0[c][r] += entry(row, column);
+                    matrix.diag[e + 1].0[c][r] += entry(2 + row, 2 + column);
+                    matrix.lower[e].0[c][r] += entry(2 + row, column);
+                }
+            }
+        }
     }
 
     /// Returns what is left of the twists of a state for this segment: of segments that it covers
