@@ -25,6 +25,8 @@ pub struct TorsionReading {
     /// Twist per length in rad/m of unstretched cable; the mean of a rope whose tension makes
     /// torque.
     pub twist_rate: f64,
+    /// Energy in J, that of [`Energy::torsion`](crate::Energy).
+    pub energy: f64,
 }
 
 impl Cable {
@@ -41,7 +43,8 @@ impl Cable {
                         / self.elements()[segment.nodes[0]..segment.nodes[1]].iter().map(|e| e.length).sum::<f64>()
                 }
             };
-            TorsionReading { nodes: segment.nodes, twist: twist.twist, torque, twist_rate }
+            let energy = 0.5 * torque * segment.loaded(self.elements(), self.positions(), twist.twist);
+            TorsionReading { nodes: segment.nodes, twist: twist.twist, torque, twist_rate, energy }
         };
         self.segments().into_iter().map(reading).collect()
     }

@@ -67,6 +67,17 @@ impl Segment {
         twist + self.elements().map(of).sum::<f64>()
     }
 
+    /// Returns the twist rate in rad/m of an element at a twist of the material in rad: the same in
+    /// all, but where tension that differs along the segment makes torque.
+    pub fn rate_in(&self, elements: &[Element], q: &[f64], twist: f64, e: usize) -> f64 {
+        let Some(strands) = self.strands else {
+            return twist / elements[self.elements()].iter().map(|element| element.length).sum::<f64>();
+        };
+        let (element, own) = (&elements[e], &q[6 * e..6 * e + COORDINATES]);
+        let of_torque = self.torque(elements, q, twist) / strands.torsional(element);
+        of_torque - strands.share(element) * elongation(own, element.length) / element.length
+    }
+
     /// Returns the torque in N m at a twist of the material in rad.
     pub fn torque(&self, elements: &[Element], q: &[f64], twist: f64) -> f64 {
         self.stiffness * self.loaded(elements, q, twist)
