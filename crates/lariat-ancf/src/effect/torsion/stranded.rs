@@ -9,8 +9,8 @@
 //! ```
 //!
 //! so EA is the stiffness and k T the torque while twist is held (k = c d: torque factor c,
-//! diameter d), GJ the stiffness while tension is. Nothing acts on the spin of an inner section, so M
-//! is uniform, tau = (M - EA k eps)/G with G = GJ + EA k^2, and over a segment of twist Phi
+//! diameter d), GJ the stiffness while tension is. Nothing acts on the spin of an inner section, so
+//! M is uniform, tau = (M - EA k eps)/G with G = GJ + EA k^2, and over a segment of twist Phi
 //!
 //! ```text
 //! M = K (Phi + sum beta_e E_e)        K = 1/sum(l_e/G_e),  beta = EA k/G,  E_e = int eps ds
@@ -19,8 +19,8 @@
 //!
 //! This is torsion of the stiffness G by a twist that has the elongation in it, beside the axial
 //! stiffness EA GJ/G of a rope that may turn: no further column, and without two holds (M = 0)
-//! nothing is left but that stiffness. The tension is T = EA GJ/G eps + beta M. The elongation is quadratic in the
-//! coordinates, so its gradient at the mean is an exact secant:
+//! nothing is left but that stiffness. The tension is T = EA GJ/G eps + beta M. The elongation is
+//! quadratic in the coordinates, so its gradient at the mean is an exact secant:
 //!
 //! ```text
 //! E = l/2 [6/5 c.c - 1/5 c.(t_i + t_j) + 2/15 (t_i.t_i + t_j.t_j) - 1/15 t_i.t_j - 1]        c = (r_j - r_i)/l
@@ -34,8 +34,9 @@
 //!
 //! # References
 //!
-//! Costello, Theory of Wire Rope (1997), chapter 3, and Feyrer, Wire Ropes (2015), section 2.4 (both
-//! stiffnesses and the coupling of both, linear); the elimination of the twist is derived here.
+//! Costello, Theory of Wire Rope (1997): tension and torque of a strand, linear in strain and twist
+//! rate with one coupling, for they have an energy. Kollros 1974, in Feyrer, Wire Ropes (2015),
+//! chapter 2: the torque c d T of ropes. The elimination of the twist is derived here.
 //!
 //! # Alternatives considered
 //!
