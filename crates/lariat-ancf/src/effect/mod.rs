@@ -111,15 +111,6 @@ pub trait Effect: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
     fn refine(&mut self, element: usize, xi: f64);
 }
 
-impl Effects {
-    /// Whether [`Fidelity::Engineering`](crate::Fidelity::Engineering) is by the discrete gradient
-    /// with them, as [`Integrator::COUPLED`](crate::Integrator::COUPLED): contact and torsion have
-    /// no other method.
-    pub fn need_discrete_gradient(&self) -> bool {
-        self.contact.is_some() || self.torsion.is_some()
-    }
-}
-
 /// Where a cable is cut.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]

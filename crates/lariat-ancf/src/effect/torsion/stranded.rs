@@ -77,7 +77,7 @@ impl Strands {
     }
 }
 
-/// The products in E, over (c, t_i, t_j).
+/// Coefficient: of the products in E, over (c, t_i, t_j).
 const PRODUCTS: [[f64; 3]; 3] = [[1.2, -0.1, -0.1], [-0.1, 2.0 / 15.0, -1.0 / 30.0], [-0.1, -1.0 / 30.0, 2.0 / 15.0]];
 
 /// Returns c, t_i and t_j of an element.
