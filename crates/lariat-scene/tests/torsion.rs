@@ -160,7 +160,7 @@ fn a_stranded_rope_of_a_scene_turns_its_hook() {
         assert!((all[8] - own[4]).abs() < 1e-9 && own[4] >= 0.0, "{all:?} {own:?}");
     }
     assert!(summary.energy_balance.unwrap().made() < 1e-6, "{:?}", summary.energy_balance);
-    let reel = "elements = 4\nreel = { at = \"start\", rate = 0.1 }\n";
+    let reel = "elements = 4\nreel = { end = \"start\", rate = [[0.0, 0.1]] }\n";
     let error = run(&[("\nstiffness = 0.02\ninitial_twist = 0.25", stranded), ("elements = 4\n", reel)]).unwrap_err();
     assert!(error.contains("torque_per_tension"), "{error}");
 }

@@ -15,12 +15,13 @@
 //! rounding, however long the run: nothing drifts.
 
 use super::Torsion;
-use super::element::{self, COORDINATES, TwistChange, twist_change, twist_hessian};
+use super::element::{self, Blocks, COORDINATES, TwistChange, node_step, twist_change, twist_hessian};
 use super::lengths::Lengths;
 use super::stranded::{Strands, elongation, elongation_gradient, elongation_hessian};
-use crate::linalg::BlockTridiagonal;
+use crate::linalg::{Block, BlockTridiagonal};
 use crate::section::Element;
 use crate::state::SegmentTwist;
+use nalgebra::Matrix3;
 
 /// What the curve of a segment adds to its twist over a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -118,8 +119,14 @@ impl Segment {
         secant.clear();
         secant.resize(self.range().len(), 0.0);
         let (mut sum, mut part) = (CurveChange::default(), [0.0; COORDINATES]);
+        let node = |n: usize| node_step(&q[6 * n..6 * n + 6], &step[6 * n..6 * n + 6]);
+        // neighbours share a node
+        let mut first = node(self.nodes[0]);
         self.for_each(|e, at, own| {
-            let change: TwistChange = twist_change(&q[at.clone()], &step[at], lengths.of(e), &mut part);
+            let last = node(e + 1);
+            let change: TwistChange =
+                twist_change(&q[at.clone()], &step[at], [&first, &last], lengths.of(e), &mut part);
+            first = last;
             sum.angle += change.angle;
             sum.slips += change.slips;
             if let Some(side) = lengths.side(e) {
@@ -175,22 +182,18 @@ impl Segment {
         let mut local = [0.0; COORDINATES];
         self.for_each(|e, at, _| {
             local.iter_mut().zip(at).for_each(|(out, i)| *out = q(i));
-            let blocks = twist_hessian(&local, lengths.mean(e), factor);
-            for column in 0..2 {
-                for row in 0..2 {
-                    for x in 0..3 {
-                        for y in 0..3 {
-                            let (r, c) = (3 * row + y, 3 * column + x);
-                            let own = |first: usize| {
-                                let (a, b) = (first + row, first + column);
-                                if a >= b { blocks[a][b][(y, x)] } else { blocks[b][a][(x, y)] }
-                            };
-                            matrix.diag[e].0[c][r] += own(0);
-                            matrix.diag[e + 1].0[c][r] += own(2);
-                            matrix.lower[e].0[c][r] += blocks[2 + row][column][(y, x)];
-                        }
-                    }
+            let blocks: Blocks = twist_hessian(&local, lengths.mean(e), factor);
+            for (row, column) in [(0, 0), (1, 0), (1, 1)] {
+                let (first, last) = (&blocks[row][column], &blocks[2 + row][2 + column]);
+                add_block(&mut matrix.diag[e], [row, column], first);
+                add_block(&mut matrix.diag[e + 1], [row, column], last);
+                if row != column {
+                    add_block(&mut matrix.diag[e], [column, row], &first.transpose());
+                    add_block(&mut matrix.diag[e + 1], [column, row], &last.transpose());
                 }
+            }
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                add_block(&mut matrix.lower[e], [row, column], &blocks[2 + row][column]);
             }
         });
         let Some(strands) = self.strands else { return };
@@ -225,6 +228,13 @@ impl Segment {
             }
         }
         own
+    }
+}
+
+/// Adds a block over r or t to one over both.
+fn add_block(to: &mut Block, [row, column]: [usize; 2], block: &Matrix3<f64>) {
+    for (to, from) in to.0[3 * column..3 * column + 3].iter_mut().zip(block.column_iter()) {
+        to[3 * row..3 * row + 3].iter_mut().zip(from.iter()).for_each(|(to, x)| *to += x);
     }
 }
 

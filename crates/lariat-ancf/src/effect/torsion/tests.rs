@@ -1,7 +1,7 @@
 //! The twist of elements against identities and differences.
 
 use super::curve::Curve;
-use super::element::{COORDINATES, twist_change, twist_gradient, twist_hessian};
+use super::element::{COORDINATES, TwistChange, node_step, twist_gradient, twist_hessian};
 use super::lengths::Lengths;
 use super::pair::change;
 use super::segment::Segment;
@@ -14,6 +14,12 @@ use crate::section::Element;
 use nalgebra::{UnitQuaternion, Vector3};
 
 const LENGTH: f64 = 0.7;
+
+/// What the twist of an element by itself changes over a step.
+fn twist_change(q: &[f64], step: &[f64], lengths: [f64; 2], secant: &mut [f64]) -> TwistChange {
+    let [x, y] = [0..6, 6..12].map(|node| node_step(&q[node.clone()], &step[node]));
+    super::element::twist_change(q, step, [&x, &y], lengths, secant)
+}
 
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
