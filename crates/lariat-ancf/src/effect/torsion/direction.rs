@@ -73,21 +73,10 @@ impl Direction {
         v * q + self.slope * (2.0 * dq * self.slope.dot(v))
     }
 
-    /// Returns T1 [p] T2 with the derivatives T = q I + 2 q' d d^T of this and of another direction
-    /// and the matrix [p] of the cross product by p from the left.
-    pub fn around(&self, p: &Vector3<f64>, other: &Direction) -> Matrix3<f64> {
-        let ([q, dq, _], [other_q, other_dq, _]) = (self.power, other.power);
-        let (before, behind) = (self.slope.cross(p) * (2.0 * dq * other_q), p.cross(&other.slope));
-        let column = behind * q + self.slope * (2.0 * dq * self.slope.dot(&behind));
-        let mut product = self.slope * before.transpose() + column * (other.slope * (2.0 * other_dq)).transpose();
-        let p = p * (q * other_q);
-        product[(0, 1)] -= p.z;
-        product[(0, 2)] += p.y;
-        product[(1, 0)] += p.z;
-        product[(1, 2)] -= p.x;
-        product[(2, 0)] -= p.y;
-        product[(2, 1)] += p.x;
-        product
+    /// Returns the derivative of the direction by the slope.
+    pub fn jacobian(&self) -> Matrix3<f64> {
+        let [q, dq, _] = self.power;
+        Matrix3::from_diagonal_element(q) + self.slope * self.slope.transpose() * (2.0 * dq)
     }
 
     /// Returns the derivative of [`pull`](Self::pull) by the slope, the covector kept.

@@ -40,7 +40,7 @@
 //! singular where one element turns round.
 
 use super::direction::{Direction, DirectionStep};
-use super::pair::{Pair, change};
+use super::pair::{change, cross, gradient, jacobians};
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -76,53 +76,37 @@ fn write([x, m, y]: &[Vector3<f64>; 3], scale: f64, out: &mut [f64]) {
 /// Writes the gradient of Phi at coordinates `q` (r, t of two nodes) to `out`.
 pub(super) fn twist_gradient(q: &[f64], length: f64, out: &mut [f64]) {
     let directions = slopes(q, 1.5 / length).map(Direction::of);
-    let on_directions = covectors(&directions, &pairs(&directions));
+    let on_directions = covectors(&directions);
     let on_slopes = core::array::from_fn(|k| directions[k].pull(&on_directions[k]));
     write(&on_slopes, 1.5 / length, out);
 }
 
-/// Returns the pairs of directions.
-fn pairs([x, m, y]: &[Direction; 3]) -> [Pair; 2] {
-    [Pair::of(&x.at, &m.at), Pair::of(&m.at, &y.at)]
-}
-
 /// Returns the derivatives of Phi by the three directions.
-fn covectors(directions: &[Direction; 3], pairs: &[Pair; 2]) -> [Vector3<f64>; 3] {
+fn covectors(directions: &[Direction; 3]) -> [Vector3<f64>; 3] {
     let [x, m, y] = directions.map(|direction| direction.at);
-    let [before, behind] = pairs.map(|pair| pair.gradient());
+    let (before, behind) = (gradient(&x, &m), gradient(&m, &y));
     [before - m.cross(&y) / 6.0, before + behind - y.cross(&x) / 6.0, behind - x.cross(&m) / 6.0]
-}
-
-/// Returns u v^T.
-fn outer(u: &Vector3<f64>, v: &Vector3<f64>) -> Matrix3<f64> {
-    u * v.transpose()
 }
 
 /// Returns the Hessian of Phi at coordinates `q` times a factor.
 pub(super) fn twist_hessian(q: &[f64], length: f64, factor: f64) -> Blocks {
     let directions = slopes(q, 1.5 / length).map(Direction::of);
     let [x, m, y] = directions.map(|direction| direction.at);
-    let pairs = pairs(&directions);
-    let ([at_x, at_m, at_y], [first, last]) = (&directions, &pairs);
-    let v = covectors(&directions, &pairs);
-    // the symmetric part of the derivatives of the pairs, between vectors pulled to the slopes
-    let (half_first, half_last) = (0.5 * factor * first.slope, 0.5 * factor * last.slope);
-    let (x_normal, m_first) = (at_x.pull(&first.normal) * half_first, at_m.pull(&first.normal) * half_first);
-    let (m_last, y_normal) = (at_m.pull(&last.normal) * half_last, at_y.pull(&last.normal) * half_last);
-    let (x_m, m_x, m_y, y_m) = (at_x.pull(&m), at_m.pull(&x), at_m.pull(&y), at_y.pull(&m));
-    let both = |u: &Vector3<f64>, v: &Vector3<f64>| {
-        let product = outer(u, v);
-        product + product.transpose()
+    let v = covectors(&directions);
+    let t = directions.map(|direction| direction.jacobian());
+    let [a, b] = jacobians(&x, &m);
+    let [c, d] = jacobians(&m, &y);
+    let symmetric = |matrix: Matrix3<f64>| (matrix + matrix.transpose()) * (0.5 * factor);
+    let own = |k: usize, h: Matrix3<f64>| {
+        let (j, bend) = (&t[k], directions[k].curvature(&v[k]));
+        j * symmetric(h) * j + bend * factor
     };
-    let sixth = factor / 6.0;
-    let xx = both(&x_normal, &x_m) + at_x.curvature(&(v[0] * factor));
-    let mm = both(&m_first, &m_x) + both(&m_last, &m_y) + at_m.curvature(&(v[1] * factor));
-    let yy = both(&y_normal, &y_m) + at_y.curvature(&(v[2] * factor));
-    let turn = (m + x) * (-0.5 * factor * first.factor) - y * sixth;
-    let mx = at_m.around(&turn, at_x) + outer(&m_first, &x_m) + outer(&m_x, &x_normal);
-    let turn = (y + m) * (-0.5 * factor * last.factor) - x * sixth;
-    let ym = at_y.around(&turn, at_m) + outer(&y_normal, &m_y) + outer(&y_m, &m_last);
-    let yx = at_y.around(&(m * sixth), at_x);
+    let between = |one: usize, other: usize, h: Matrix3<f64>| t[one] * h * t[other] * factor;
+    let sixth = 1.0 / 6.0;
+    let (xx, mm, yy) = (own(0, a), own(1, b + c), own(2, d));
+    let mx = between(1, 0, (a + b.transpose()) * 0.5 - cross(&y) * sixth);
+    let ym = between(2, 1, (c + d.transpose()) * 0.5 - cross(&x) * sixth);
+    let yx = between(2, 0, cross(&m) * sixth);
     let along = 1.5 / length;
     let (quarter, sixteenth) = (mm * 0.25, mm * 0.0625);
     let rr = mm * (along * along);

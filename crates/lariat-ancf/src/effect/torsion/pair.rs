@@ -6,8 +6,7 @@
 //! u are material directors of the sections. While these do not spin,
 //!
 //! ```text
-//! d Psi = c.(dx + dy)        c = w/(1 + x.y) = f w,  w = x cross y
-//! dc/dx = -f [y] + f' w y^T        dc/dy = f [x] + f' w x^T
+//! d Psi = c.(dx + dy)        c = x cross y/(1 + x.y)
 //! D Psi = 2 atan z = c^.(Dx + Dy)        z = N/S,  c^ = (X cross Y) 2 atan(z)/N
 //! N = (X cross Y).(Dx + Dy)        S = (X.B)(Y.C) - (X.Y)(B.C) + (X.C)(B.Y)
 //! X = x0 + x1,  Y = y0 + y1,  B = x1 + y1,  C = x0 + y0
@@ -32,34 +31,33 @@
 //! 27 (2008) 63 (parallel transport in rods); Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 
 use crate::scales::effect::SMALL_TURN;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Coefficient of the continuation: S at 120 degrees.
 const SHARP: f64 = 4.0;
 
-/// A pair of directions with what its twist changes by.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
-    /// x cross y.
-    pub normal: Vector3<f64>,
-    /// The factor on it in c.
-    pub factor: f64,
-    /// The derivative of that by x.y.
-    pub slope: f64,
+/// Returns the matrix of the cross product from the left.
+pub(super) fn cross(v: &Vector3<f64>) -> Matrix3<f64> {
+    v.cross_matrix()
 }
 
-impl Pair {
-    /// Returns that of two directions.
-    pub fn of(x: &Vector3<f64>, y: &Vector3<f64>) -> Self {
-        let (normal, s) = (x.cross(y), 1.0 + x.dot(y));
-        let (factor, slope) = if 8.0 * s >= SHARP { (s.recip(), -(s * s).recip()) } else { (4.0 - 4.0 * s, -4.0) };
-        Pair { normal, factor, slope }
-    }
+/// Returns c, and the factor on x cross y in it with its derivative by x.y.
+fn factors(x: &Vector3<f64>, y: &Vector3<f64>) -> (Vector3<f64>, f64, f64) {
+    let (w, s) = (x.cross(y), 1.0 + x.dot(y));
+    let (factor, slope) = if 8.0 * s >= SHARP { (s.recip(), -(s * s).recip()) } else { (4.0 - 4.0 * s, -4.0) };
+    (w * factor, factor, slope)
+}
 
-    /// Returns c.
-    pub fn gradient(&self) -> Vector3<f64> {
-        self.normal * self.factor
-    }
+/// Returns c.
+pub(super) fn gradient(x: &Vector3<f64>, y: &Vector3<f64>) -> Vector3<f64> {
+    factors(x, y).0
+}
+
+/// Returns the derivatives of c by x and by y.
+pub(super) fn jacobians(x: &Vector3<f64>, y: &Vector3<f64>) -> [Matrix3<f64>; 2] {
+    let (_, factor, slope) = factors(x, y);
+    let w = x.cross(y) * slope;
+    [cross(y) * -factor + w * y.transpose(), cross(x) * factor + w * x.transpose()]
 }
 
 /// What the ends of a pair change over a step.
