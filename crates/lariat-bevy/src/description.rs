@@ -86,6 +86,9 @@ impl Description {
     pub fn integrator_for(&self, cable: &lariat_ancf::Cable, effects: &Effects) -> Integrator {
         // internal damping needs an implicit method, however low the frequencies of the cable
         let choice = |effects: &Effects| {
+            if self.integrator == Fidelity::Engineering && effects.need_discrete_gradient() {
+                return Integrator::COUPLED;
+            }
             let implicit = effects.needs_implicit_integrator();
             self.integrator.integrator(if implicit { f64::INFINITY } else { cable.frequency_bound() })
         };

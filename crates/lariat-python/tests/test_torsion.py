@@ -49,6 +49,18 @@ def test_a_reel_keeps_the_twist_that_is_out() -> None:
     assert reading.torque == pytest.approx(STIFFNESS * reading.twist / rope.length)
 
 
+def test_tension_of_a_stranded_rope_makes_torque() -> None:
+    factor = 0.1 * 0.01
+    rope = lariat.Cable(
+        [[0, 0, 0], [1, 0, 0]], SECTION, elements=8, effects=Torsion(STIFFNESS, torque_per_tension=factor), clamp=["start", "end"],
+        pretension=50.0, gravity=[0, 0, 0], fidelity="game",
+    )  # fmt: skip
+    (reading,) = rope.torsion()
+    assert reading.torque == pytest.approx(factor * 50.0, rel=0.01)
+    with pytest.raises(errors.Error, match="torque_per_tension"):
+        rope.add_reel("start", Reel(0.2))
+
+
 def test_torsion_is_read_back_pickled_and_checked() -> None:
     torsion = Torsion(STIFFNESS, 0.25, 0.1, start="swivel", end=Motor(1.0, 0.5, 2.0))
     assert pickle.loads(pickle.dumps(torsion)) == torsion

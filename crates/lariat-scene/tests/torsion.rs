@@ -143,3 +143,24 @@ fn what_is_wrong_with_torsion_in_a_scene_is_told() {
     assert!(format!("{:?}", summary.warnings).contains("IdleTorsion"), "{:?}", summary.warnings);
     assert!(twist.iter().all(|row| row[1..] == [0.0; 4]));
 }
+
+/// A rope whose tension makes torque turns its hook; with a reel it is refused.
+///
+/// *Source.* k T L/GJ with the weight over the stretch.
+#[test]
+fn a_stranded_rope_of_a_scene_turns_its_hook() {
+    let stranded = "\nstiffness = 0.02\ndamping = 0.3\ntorque_per_tension = 5e-4";
+    let (summary, [twist, energy]) = run(&[("\nstiffness = 0.02\ninitial_twist = 0.25", stranded)]).unwrap();
+    assert!(summary.failed.is_none(), "{summary:?}");
+    let mean = twist[twist.len() - 300..].iter().map(|row| row[2]).sum::<f64>() / 300.0;
+    let exact = -5e-4 * 9.81 / 0.02;
+    println!("{mean} of {exact} rad");
+    assert!((mean / exact - 1.0).abs() < 0.02, "{mean} {exact}");
+    for (all, own) in energy.iter().zip(&twist) {
+        assert!((all[8] - own[4]).abs() < 1e-9 && own[4] >= 0.0, "{all:?} {own:?}");
+    }
+    assert!(summary.energy_balance.unwrap().made() < 1e-6, "{:?}", summary.energy_balance);
+    let reel = "elements = 4\nreel = { end = \"start\", rate = [[0.0, 0.1]] }\n";
+    let error = run(&[("\nstiffness = 0.02\ninitial_twist = 0.25", stranded), ("elements = 4\n", reel)]).unwrap_err();
+    assert!(error.contains("torque_per_tension"), "{error}");
+}

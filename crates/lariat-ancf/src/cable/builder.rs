@@ -382,9 +382,7 @@ impl CableBuilder {
             drawn: drawn_ends,
             least_damping: 0.0,
         };
-        // contact and torsion have one method that can step them
-        let needs_game = model.effects.contact.is_some() || model.effects.torsion.is_some();
-        let default = if needs_game { Fidelity::Game } else { Fidelity::default() };
+        let default = if model.effects.need_discrete_gradient() { Fidelity::Game } else { Fidelity::default() };
         let mut cable = Cable::from_parts(model, snapshot, default.integrator(f64::INFINITY))?;
         let slack = !cable.model.drawn.is_empty();
         let mut turned = Vec::new();

@@ -34,9 +34,10 @@ impl Cable {
     /// for torsion with another one. The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         let mut integrator = self.integrator();
-        if (effects.contact.is_some() || effects.torsion.is_some()) && self.default_integrator {
+        let coupled = effects.need_discrete_gradient();
+        if coupled && self.default_integrator {
             integrator = self.integrator_for(Fidelity::Game);
-        } else if effects.contact.is_some() && integrator == Integrator::default() {
+        } else if coupled && integrator == Integrator::default() {
             integrator = Integrator::COUPLED;
         }
         self.redefine(self.rule(), effects, integrator)

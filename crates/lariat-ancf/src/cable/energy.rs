@@ -16,7 +16,8 @@ pub struct Energy {
     pub bending: f64,
     /// Gravity, less buoyancy.
     pub gravity: f64,
-    /// Torsion.
+    /// Torsion. Of a [stranded rope](crate::Torsion::torque_per_tension) what its torque does, so
+    /// that the axial energy is that at no torque.
     #[serde(default)]
     pub torsion: f64,
     /// [Potentials](crate::Potential) of your own.
@@ -81,7 +82,9 @@ impl Cable {
             + self.system.feed_kinetic(&self.model, time, q, v);
         let gravity = -self.system.loads.gravity_work(self.positions());
         let potentials = self.system.potentials.energy(&self.model, self.positions());
-        let torsion = self.sum_of_segments(|segment, twist| 0.5 * segment.stiffness * twist.twist.powi(2));
+        let torsion = self.sum_of_segments(|segment, twist| {
+            0.5 * segment.stiffness * segment.loaded(self.elements(), self.positions(), twist.twist).powi(2)
+        });
         Energy { kinetic, axial, bending, gravity, torsion, potentials }
     }
 

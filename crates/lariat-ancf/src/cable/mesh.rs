@@ -124,7 +124,11 @@ impl Cable {
                 let share = (strain - 0.5 * (stretch * stretch - 1.0)) * (1.0 + 2.0 * strain).max(0.0).sqrt();
                 if share > largest.0 {
                     let stiffness = element.section.axial_stiffness;
-                    largest = (share, share * stiffness, stiffness);
+                    let tension = match self.model.axial_stiffness(element) == stiffness {
+                        true => share * stiffness,
+                        false => self.reading().pull(e, xi, &at).tension,
+                    };
+                    largest = (share, tension, stiffness);
                 }
             }
         }

@@ -247,7 +247,8 @@ impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
     pub(crate) fn integrator_for(&self, choice: impl Into<Fidelity>) -> Integrator {
         let (choice, model) = (choice.into(), &self.model);
-        if choice == Fidelity::Engineering && (model.effects.contact.is_some() || model.reels.have_laws()) {
+        let coupled = model.effects.need_discrete_gradient() || model.reels.have_laws();
+        if choice == Fidelity::Engineering && coupled {
             return Integrator::COUPLED;
         }
         let implicit = model.effects.needs_implicit_integrator();

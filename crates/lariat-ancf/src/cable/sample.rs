@@ -113,7 +113,8 @@ impl Cable {
     /// Returns the present state, to be read.
     pub(crate) fn reading(&self) -> Reading<'_> {
         let (q, v) = (self.positions(), self.velocities());
-        Reading { model: &self.model, system: &self.system, q, v, time: self.time() }
+        let twists = &self.snapshot.state.memory.torsion;
+        Reading { model: &self.model, system: &self.system, q, v, time: self.time(), twists }
     }
 
     /// Returns the tension at a node between two elements, if it is continuous there.
@@ -142,7 +143,7 @@ impl Cable {
         let stretch = slope.norm();
         let reading = self.reading();
         let at = reading.state(e, true);
-        let Pull { tension, green_strain } = reading.pull(e, xi, &at);
+        let Pull { tension, green_strain, .. } = reading.pull(e, xi, &at);
         let mut velocity = combine(v, e, &position);
         for feed in self.system.feeds.list.iter().filter(|feed| feed.side.element(self.elements().len()) == e) {
             let extent = feed.extent;

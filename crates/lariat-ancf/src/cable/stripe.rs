@@ -42,10 +42,10 @@ impl Cable {
             let (e, xi) = self.model.locate(place);
             let Some(k) = segments.iter().position(|(segment, _)| segment.contains(e)) else { return Ok(None) };
             let (segment, twist) = &segments[k];
-            let stiffness = self.model.effects.torsion.map_or(f64::NAN, |torsion| torsion.stiffness);
+            let rate = segment.rate_in(self.elements(), self.positions(), twist.twist, e);
             // from the nearer node
             let (node, share) = if xi < 0.5 { (e, xi) } else { (e + 1, xi - 1.0) };
-            let turn = segment.stiffness * twist.twist / stiffness * share * self.elements()[e].length;
+            let turn = rate * share * self.elements()[e].length;
             let (from, director) = lines[k][node - segment.nodes[0]];
             let to = here.slope.try_normalize(0.0).unwrap_or(from);
             Ok(Some(about(&to, turn) * rotated(director, &from, &to)))
@@ -57,13 +57,13 @@ impl Cable {
     fn directors(&self, segment: &Segment, twist: &SegmentTwist) -> Vec<(Vector3<f64>, Vector3<f64>)> {
         let [first, last] = segment.nodes;
         let (elements, q) = (&self.elements()[first..last], &self.positions()[segment.range()]);
-        let length: f64 = elements.iter().map(|element| element.length).sum();
         let slopes = slopes_along(q, elements.iter().map(|element| element.length));
         let tangent = slopes.first().map_or_else(Vector3::x, |[x, ..]| *x);
         let mut list = vec![(tangent, self.first_director(first, &tangent, twist))];
-        for ([x, m, y], element) in slopes.into_iter().zip(elements) {
+        for (k, ([x, m, y], element)) in slopes.into_iter().zip(elements).enumerate() {
             let carried = rotated(rotated(list[list.len() - 1].1, &x, &m), &m, &y);
-            let turn = twist.twist * element.length / length + x.dot(&m.cross(&y)) / 6.0;
+            let rate = segment.rate_in(self.elements(), self.positions(), twist.twist, first + k);
+            let turn = rate * element.length + x.dot(&m.cross(&y)) / 6.0;
             list.push((y, about(&y, turn) * carried));
         }
         list

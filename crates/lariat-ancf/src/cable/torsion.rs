@@ -4,6 +4,7 @@ use super::Cable;
 use crate::effect::torsion::curve::Curve;
 use crate::effect::torsion::lengths::Lengths;
 use crate::effect::torsion::segment::{CurveChange, Segment};
+use crate::effect::torsion::stranded::Strands;
 use crate::element::side::Side;
 use crate::error::Error;
 use crate::state::SegmentTwist;
@@ -21,8 +22,11 @@ pub struct TorsionReading {
     /// Elastic torque in N m about the axis in the direction of arc length, on what holds the first
     /// node; its opposite acts on what holds the last. That of damping is beside it.
     pub torque: f64,
-    /// Twist per length in rad/m of unstretched cable.
+    /// Twist per length in rad/m of unstretched cable; the mean of a rope whose tension makes
+    /// torque.
     pub twist_rate: f64,
+    /// Energy in J, that of [`Energy::torsion`](crate::Energy).
+    pub energy: f64,
 }
 
 impl Cable {
@@ -31,10 +35,23 @@ impl Cable {
     pub fn torsion(&self) -> Vec<TorsionReading> {
         let stiffness = self.model.effects.torsion.as_ref().map_or(f64::NAN, |torsion| torsion.stiffness);
         let reading = |(segment, twist): (Segment, SegmentTwist)| {
-            let torque = segment.stiffness * twist.twist;
-            TorsionReading { nodes: segment.nodes, twist: twist.twist, torque, twist_rate: torque / stiffness }
+            let torque = self.torque_in(&segment, &twist);
+            let twist_rate = match segment.strands {
+                None => torque / stiffness,
+                Some(_) => {
+                    twist.twist
+                        / self.elements()[segment.nodes[0]..segment.nodes[1]].iter().map(|e| e.length).sum::<f64>()
+                }
+            };
+            let energy = 0.5 * torque * segment.loaded(self.elements(), self.positions(), twist.twist);
+            TorsionReading { nodes: segment.nodes, twist: twist.twist, torque, twist_rate, energy }
         };
         self.segments().into_iter().map(reading).collect()
+    }
+
+    /// Returns the torque in N m of a segment.
+    fn torque_in(&self, segment: &Segment, twist: &SegmentTwist) -> f64 {
+        segment.torque(self.elements(), self.positions(), twist.twist)
     }
 
     /// Returns torque and twist at an arc length in m; `None` where no clamp on both sides holds
@@ -84,7 +101,10 @@ impl Cable {
         let of = |twist: &SegmentTwist| {
             let Some(own) = elements.get(twist.nodes[0]..twist.nodes[1]) else { return 0.0 };
             let length: f64 = own.iter().map(|element| element.length).sum();
-            let torque = torsion.stiffness * twist.twist.abs() / length;
+            let torque = match Strands::of(torsion) {
+                None => torsion.stiffness * twist.twist.abs() / length,
+                Some(_) => self.torque_in(&Segment::between(torsion, elements, twist.nodes), twist).abs(),
+            };
             own.iter().map(|e| torque * e.length / e.section.bending_stiffness).fold(0.0, f64::max)
         };
         self.snapshot.state.memory.torsion.iter().flatten().map(of).fold(0.0, f64::max)
@@ -138,7 +158,7 @@ impl Cable {
     pub(crate) fn torsion_moment(&self, node: usize) -> Vector3<f64> {
         let own = |(segment, twist): (Segment, SegmentTwist)| {
             let side = segment.nodes.iter().position(|held| *held == node)?;
-            Some([1.0, -1.0][side] * segment.stiffness * twist.twist)
+            Some([1.0, -1.0][side] * self.torque_in(&segment, &twist))
         };
         let torque: f64 = self.segments().into_iter().filter_map(own).sum();
         let slope = Vector3::from_column_slice(&self.positions()[6 * node + 3..6 * node + 6]);

@@ -38,7 +38,7 @@ pub enum Fidelity {
     /// | taut steel | 10 | 1.9e-4 | 0.107 |
     Game,
     /// Error-controlled ESDIRK4, 1e-6 m per host step of the motion: the default. With contact,
-    /// clutches, sheaves or drums [`Integrator::COUPLED`].
+    /// torsion, clutches, sheaves or drums [`Integrator::COUPLED`].
     ///
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|

@@ -53,9 +53,9 @@ impl Default for Integrator {
 }
 
 impl Integrator {
-    /// What [`Fidelity::Engineering`](super::Fidelity::Engineering) is where contact, clutches,
-    /// sheaves or drums need the discrete gradient: 1e-5 m per host step of the free bodies, or of
-    /// the motion of a cable without any, with the dissipation 1/256.
+    /// What [`Fidelity::Engineering`](super::Fidelity::Engineering) is where contact, torsion,
+    /// clutches, sheaves or drums need the discrete gradient: 1e-5 m per host step of the free
+    /// bodies, or of the motion of a cable without any, with the dissipation 1/256.
     pub const COUPLED: Integrator = Integrator {
         method: Method::DiscreteGradientWith { dissipation: LITTLE_DISSIPATION },
         control: StepControl::ToleranceOf(1e-5, ErrorNorm::Bodies),

@@ -306,7 +306,9 @@ impl Dynamics for IslandDynamics<'_, '_> {
     fn state_reached(&mut self, state: &State) {
         self.accounts.integrate_to(&mut self.equations, state, &mut self.vectors.rhs);
         for (cable, part) in self.equations.cables.iter_mut().zip(&self.equations.layout.parts) {
-            cable.equations().0.note_load(state.time, &state.q[part.range()], &state.v[part.range()]);
+            let part = [&state.q[part.range()], &state.v[part.range()]];
+            // no method of these islands carries torsion
+            cable.equations().0.note_load(state.time, part, &None);
         }
     }
 

@@ -9,6 +9,7 @@ use crate::effect::acts::Acts;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::potential::Potentials;
 use crate::effect::tables::ElementTables;
+use crate::effect::torsion::stranded::Strands;
 use crate::effect::{Damping, Effects, LineLoads, RestShape, Target};
 use crate::error::{Error, Requirement, require, require_finite};
 use crate::load::PointLoad;
@@ -228,7 +229,25 @@ impl Model {
             let (cable, effect) = (self.name.clone(), "an axial law");
             return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::RestStretch });
         }
+        if self.effects.torsion.as_ref().and_then(Strands::of).is_some() {
+            let problems = [
+                (self.effects.axial_law.is_some(), "an axial law"),
+                (self.effects.rest_shape.as_ref().is_some_and(stretched), "a rest stretch"),
+                (!self.reels.is_empty(), "a reel"),
+            ];
+            if let Some((_, what)) = problems.into_iter().find(|(is, _)| *is) {
+                let by = format!("with {what} where tension makes torque: leave out torque_per_tension");
+                return Err(Error::TorsionPlace { cable: self.name.clone(), by });
+            }
+        }
         if self.reels.is_empty() { Ok(()) } else { self.check_with_reel() }
+    }
+
+    /// Returns the axial stiffness in N of an element whose twist bears no torque: EA, but of a
+    /// [stranded rope](crate::effect::torsion::stranded).
+    pub(crate) fn axial_stiffness(&self, element: &Element) -> f64 {
+        let strands = self.effects.torsion.as_ref().and_then(Strands::of);
+        strands.map_or(element.section.axial_stiffness, |strands| strands.axial(element))
     }
 
     /// Returns whether a force depends on velocity.

@@ -186,7 +186,7 @@ impl Dynamics for CableDynamics<'_> {
     }
 
     fn state_reached(&mut self, state: &State) {
-        self.equations.note_load(state.time, &state.q, &state.v);
+        self.equations.note_load(state.time, [&state.q, &state.v], &state.memory.torsion);
     }
 
     fn spurious_energy(&mut self, before: &State, after: &State, h: f64) -> Option<(f64, f64)> {

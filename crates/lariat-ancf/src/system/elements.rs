@@ -91,7 +91,7 @@ impl Elements {
             bending,
             count: model.elements.len(),
             scale: by_element(&|e| 3.0 / e.length),
-            axial: by_element(&|e| 0.25 * e.section.axial_stiffness * e.length),
+            axial: by_element(&|e| 0.25 * model.axial_stiffness(e) * e.length),
             flexural: by_element(&|e| 2.0 * e.section.bending_stiffness / e.length),
             mass: MASS_ENTRIES
                 .map(|(row, column)| by_element(&|e| mass::consistent(model.inertia(e), e.length)[row][column])),

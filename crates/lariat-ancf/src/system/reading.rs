@@ -31,6 +31,7 @@ use crate::element::gram::{gram, gram_rates};
 use crate::element::kernel::GramState;
 use crate::element::variable_length::Extent;
 use crate::model::Model;
+use crate::state::SegmentTwist;
 use crate::strength::{Load, Strength};
 
 /// A cable in a state, to be read.
@@ -43,13 +44,24 @@ pub(crate) struct Reading<'a> {
     pub v: &'a [f64],
     /// Time in s.
     pub time: f64,
+    /// What is known of the twists of a cable with torsion.
+    pub twists: &'a Option<Vec<SegmentTwist>>,
 }
 
 /// Tension in N and projected Green strain at a point of an element.
 #[derive(Clone, Copy)]
 pub(crate) struct Pull {
     pub tension: f64,
+    /// Stretch.
+    stretch: f64,
     pub green_strain: f64,
+}
+
+impl Pull {
+    /// Adds a force over the stretch, in N.
+    fn with(self, force: f64) -> Self {
+        if force == 0.0 { self } else { Pull { tension: self.tension + force * self.stretch, ..self } }
+    }
 }
 
 /// Tension at a node in N: what the elements before and behind it miss to the average, and the jump
@@ -87,27 +99,45 @@ impl<'a> Reading<'a> {
         GramState { table: &elements.table, stiffness: elements.stiffness(e), g: gram(&d), rates }
     }
 
-    /// Returns tension and strain at a local coordinate of an element, from its state.
-    pub fn pull(&self, e: usize, xi: f64, state: &GramState<'_, f64>) -> Pull {
+    /// Returns them at a local coordinate of an element, from its state, without the part that a
+    /// [torque](Model::pull_of_torque) makes.
+    fn pull_without_torque(&self, e: usize, xi: f64, state: &GramState<'_, f64>) -> Pull {
         let green_strain = projected::strain(&state.g, xi);
         let of_effects = self.system.forces.strain_of_effects(e, xi, state);
-        let stress = (green_strain + of_effects) * (1.0 + 2.0 * green_strain).max(0.0).sqrt();
-        Pull { tension: self.model.elements[e].section.axial_stiffness * stress, green_strain }
+        let stretch = (1.0 + 2.0 * green_strain).max(0.0).sqrt();
+        let stress = (green_strain + of_effects) * stretch;
+        Pull { tension: self.model.axial_stiffness(&self.model.elements[e]) * stress, stretch, green_strain }
+    }
+
+    /// Returns what the torque of a stranded rope adds to the tension over the stretch of an
+    /// element, in N.
+    fn pull_of_torque(&self, e: usize) -> f64 {
+        self.model.pull_of_torque(e, self.q, self.twists).0
+    }
+
+    /// Returns tension and strain at a local coordinate of an element, from its state.
+    pub fn pull(&self, e: usize, xi: f64, state: &GramState<'_, f64>) -> Pull {
+        self.pull_without_torque(e, xi, state).with(self.pull_of_torque(e))
     }
 
     /// Returns tension and strain at both ends of an element.
     pub fn ends(&self, e: usize) -> [Pull; 2] {
-        self.ends_in(e, self.system.forces.in_element.is_some())
+        let of_torque = self.pull_of_torque(e);
+        self.ends_in(e, self.system.forces.in_element.is_some()).map(|pull| pull.with(of_torque))
     }
 
-    /// Returns tension and strain at both ends of an element, without the tension of damping.
-    fn elastic_ends(&self, e: usize) -> [Pull; 2] {
-        self.ends_in(e, false)
+    /// Returns tension and strain at both ends of an element, without the tension of damping;
+    /// `of_torque` is what a torque adds, and the first element that has another one.
+    fn elastic_ends(&self, e: usize, of_torque: &mut (f64, usize)) -> [Pull; 2] {
+        if e >= of_torque.1 {
+            *of_torque = self.model.pull_of_torque(e, self.q, self.twists);
+        }
+        self.ends_in(e, false).map(|pull| pull.with(of_torque.0))
     }
 
     fn ends_in(&self, e: usize, rates: bool) -> [Pull; 2] {
         let state = self.state(e, rates);
-        [0.0, 1.0].map(|xi| self.pull(e, xi, &state))
+        [0.0, 1.0].map(|xi| self.pull_without_torque(e, xi, &state))
     }
 
     /// Returns the tension at a node between two elements at an arc length in m, if it is
@@ -133,11 +163,12 @@ impl<'a> Reading<'a> {
         let elements = &self.model.elements;
         let rest_shape = self.model.effects.rest_shape.as_ref();
         let mut worst = Load { time: self.time, ..Load::default() };
-        let (mut from, mut before, mut ends) = (0.0, None, self.elastic_ends(0));
+        let of_torque = &mut self.model.pull_of_torque(0, self.q, self.twists);
+        let (mut from, mut before, mut ends) = (0.0, None, self.elastic_ends(0, of_torque));
         let mut at = (0, 0);
         for (e, element) in elements.iter().enumerate() {
             let to = from + element.length;
-            let next = if e + 1 < elements.len() { Some(self.elastic_ends(e + 1)) } else { None };
+            let next = if e + 1 < elements.len() { Some(self.elastic_ends(e + 1, of_torque)) } else { None };
             let behind = next.and_then(|next| self.at_node(e + 1, to, ends[1], next[0]));
             let rest = rest_shape.map_or(1.0, |shape| shape.at(from + 0.5 * element.length).0);
             for (end, ((s, pull), missing)) in
@@ -156,7 +187,7 @@ impl<'a> Reading<'a> {
         }
         if self.system.forces.in_element.is_some() {
             let (e, end) = at;
-            worst.damping = self.ends(e)[end].tension - self.elastic_ends(e)[end].tension;
+            worst.damping = self.ends_in(e, true)[end].tension - self.ends_in(e, false)[end].tension;
         }
         worst
     }
@@ -164,13 +195,13 @@ impl<'a> Reading<'a> {
 
 impl Equations<'_> {
     /// Reads the load of a cable that has a limit, once at each time.
-    pub fn note_load(&mut self, time: f64, q: &[f64], v: &[f64]) {
+    pub fn note_load(&mut self, time: f64, [q, v]: [&[f64]; 2], twists: &Option<Vec<SegmentTwist>>) {
         let strength = self.model.strength;
         if !strength.is_limited() || self.system.load.is_at(time) {
             return;
         }
         self.diagnostics.load_readings += self.model.elements.len() as u64;
-        let reading = Reading { model: self.model, system: self.system, q, v, time };
+        let reading = Reading { model: self.model, system: self.system, q, v, time, twists };
         let load = reading.largest_load(strength);
         let recoil = self.system.load.recoil(time).filter(|_| load.share > 1.0);
         let is_recoil = recoil.is_some_and(|recoil| reading.strain_energy() <= recoil.energy);

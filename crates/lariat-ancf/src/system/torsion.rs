@@ -89,6 +89,7 @@ impl StaticTorsion {
     pub fn energy(&self, model: &Model, q: &[f64]) -> f64 {
         let of = |own: &StaticSegment| {
             let twist = if self.shape == q { own.twist } else { own.twist + self.change(own, model, q) };
+            let twist = own.segment.loaded(&model.elements, q, twist);
             0.5 * own.segment.stiffness * twist * twist
         };
         self.segments.iter().map(of).sum()
@@ -109,7 +110,7 @@ impl StaticTorsion {
         }
         let mut count = 0;
         for StaticSegment { segment, twist, gradient, .. } in &mut self.segments {
-            let torque = segment.stiffness * *twist;
+            let torque = segment.torque(&model.elements, q, *twist);
             segment.gradient(&model.elements, q, gradient);
             let own = &mut out[segment.range()];
             own.iter_mut().zip(gradient.iter()).for_each(|(out, g)| *out -= scale * torque * g);

@@ -5,3 +5,4 @@ mod others;
 mod plectoneme;
 mod reels;
 mod statics;
+mod stranded;

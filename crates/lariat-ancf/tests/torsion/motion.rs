@@ -14,17 +14,34 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// Thrown twisted cables keep their energy law, and none makes energy: nodes off by 3 cm and up to
-/// 5 m/s, up to 6 turns, EA and EI over three decades.
+/// Thrown twisted cables keep their energy law, and none makes energy nor is refused: nodes off by
+/// 3 cm and up to 5 m/s, up to 6 turns, EA and EI over three decades; 1000 in the long run.
 ///
 /// *Source.* The energy law, which is exact for any step.
 #[test]
 fn thrown_twisted_cables_keep_their_energy_law() {
+    throw(0.0);
+}
+
+/// So do those whose tension makes torque, of either lay, up to sqrt(EI/EA): a quarter of the
+/// diameter of a solid rod.
+///
+/// *Source.* The energy law.
+#[test]
+fn thrown_stranded_ropes_keep_their_energy_law() {
+    throw(1.0);
+}
+
+/// Throws twisted cables whose torque per tension is up to `most` times sqrt(EI/EA).
+fn throw(most: f64) {
     let mut next = random(17);
-    for run in 0..40 {
+    let runs = if std::env::var_os("LARIAT_LONG_TESTS").is_some() { 1000 } else { 40 };
+    for run in 0..runs {
         let axial = 1e2 * 10f64.powf(1.25 * (1.0 + next()));
         let bending = 1e-4 * 10f64.powf(2.0 * (1.0 + next()));
-        let torsion = Torsion { initial_twist: 6.0 * next(), ..Torsion::new(0.8 * bending) };
+        let initial_twist = 6.0 * next();
+        let torque_per_tension = if most > 0.0 { most * (bending / axial).sqrt() * next() } else { 0.0 };
+        let torsion = Torsion { initial_twist, torque_per_tension, ..Torsion::new(0.8 * bending) };
         let mut cable = Cable::builder()
             .points([Vector3::zeros(), Vector3::new(0.5, 0.3, 0.0), Vector3::new(0.9, 0.0, 0.2)])
             .section(Section::from_stiffness(axial, bending, 0.1).unwrap())

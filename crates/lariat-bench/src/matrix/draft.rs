@@ -160,9 +160,8 @@ impl Draft {
             Wound::Reel(reel) => reel.max_force.is_some(),
             Wound::Drum => true,
         };
-        let effects = &self.effects;
         let wound = self.wound.iter().flatten().any(slips);
-        self.sheave || wound || effects.contact.is_some() || effects.torsion.is_some()
+        self.sheave || wound || self.effects.need_discrete_gradient()
     }
 
     /// Adds a feature.

@@ -76,6 +76,9 @@ class Torsion:
     """Whether a clamp at the start holds the spin: "held", "swivel", or a motor."""
     end: str | Motor = "held"
     """The same at the end."""
+    torque_per_tension: float = 0.0
+    """Torque per tension in m while twist is held: torque factor times diameter of a stranded rope, positive for a right-hand lay.
+    Not on reels, nor with an axial law or a rest stretch."""
     key: ClassVar[str] = "torsion"
 
     @classmethod

@@ -120,7 +120,7 @@ class LariatSolver:
     def _cable(self, rod: Rod, scenario: Scenario, n_elements: int) -> lariat.Cable:
         for motion in (rod.start_motion, rod.end_motion):
             if motion is not None and np.any(motion.rotation):
-                raise NotImplementedError("ends that are turned twist, and this element has no torsion")
+                raise NotImplementedError("ends that are turned, which a motor of lariat.Torsion would do")
             if motion is not None and motion.slides_along is not None:
                 raise NotImplementedError("ends that slide")
         section = lariat.Section.round(2.0 * rod.radius, rod.material.youngs_modulus, rod.material.density)

@@ -177,7 +177,7 @@ crossing Lariat settles by the damping of the other adapters and by internal dam
 matters for stiff ropes: with 1e7 Pa the symmetric shape of the reference is no stable equilibrium of ropes without friction; what differs from it grows by
 exp(5.7 t/s), on 51, 101 and 201 elements alike, and who goes on ends elsewhere. The metric `lift` reads the node behind the middle, for between an odd number of
 elements there is none in the middle: the last row is what the metrics make of the reference itself. The pile has no reference: it shows that the coils do not pass
-into each other, and what the run costs. Twist is left out, for it needs torsion, which this element does not have.
+into each other, and what the run costs. Twist is left out: its ends turn and slide, which this adapter does not write yet.
 
 {machine}
 """

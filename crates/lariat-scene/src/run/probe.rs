@@ -81,7 +81,7 @@ pub(super) fn read(target: Target, world: &mut World, row: &mut Vec<f64>) -> Res
             let (part, s) = world.part(cable, arc_length);
             let reading = world.cables()[part].torsion_at(s)?;
             // without a clamp on both sides nothing is twisted
-            row.extend(reading.map_or([0.0; 4], |at| [at.torque, at.twist, at.twist_rate, 0.5 * at.torque * at.twist]));
+            row.extend(reading.map_or([0.0; 4], |at| [at.torque, at.twist, at.twist_rate, at.energy]));
         }
         Target::Energy { cable, torsion } => {
             let energy = world.energy(cable);

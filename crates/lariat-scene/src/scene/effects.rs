@@ -296,6 +296,8 @@ table! {
         initial_twist: f64 = 0.0, Kind::Number(ANY);
         /// Time by which the twist is damped: that of a damping ratio z at omega rad/s is 2 z/omega.
         damping: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "s";
+        /// Torque per tension while twist is held: `c d` of a stranded rope with the torque factor c and the diameter d, positive for a right-hand lay. EA is then that at held twist.
+        torque_per_tension: f64 = 0.0, Kind::Number(ANY), "m";
         /// Whether a clamp at the start holds the spin, does not, or turns it by a motor.
         start: Option<Value> = ("\"held\""), END_SPIN;
         /// The same of a clamp at the end.
@@ -334,6 +336,7 @@ impl SceneEffect for Torsion {
             (stiffness, _) => Torsion::new(stiffness.unwrap_or_default()),
         };
         (torsion.initial_twist, torsion.damping) = (table.initial_twist, table.damping);
+        torsion.torque_per_tension = table.torque_per_tension;
         for (key, written, spin) in [("start", table.start, &mut torsion.start), ("end", table.end, &mut torsion.end)] {
             *spin = match written {
                 Some(Value::String(text)) if text == "swivel" => EndSpin::Swivel,

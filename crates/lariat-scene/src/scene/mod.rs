@@ -174,8 +174,7 @@ impl Scene {
         };
         let only = |(part, cable): (usize, &CableScene)| {
             let slips = cable.reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
-            let effects = &cable.effects;
-            effects.contact.is_some() || effects.torsion.is_some() || slips || cable.drum.is_some() || rides(part)
+            cable.effects.need_discrete_gradient() || slips || cable.drum.is_some() || rides(part)
         };
         !self.sheaves.is_empty() || self.cables.iter().enumerate().any(only)
     }

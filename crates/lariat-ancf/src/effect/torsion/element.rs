@@ -133,16 +133,27 @@ pub(super) struct TwistChange {
     pub slips: u64,
 }
 
-/// Returns D Phi from coordinates `q` over `step`, and writes the secant c to `secant`; `lengths`
-/// are those at both ends of the step.
-pub(super) fn twist_change(q: &[f64], step: &[f64], lengths: [f64; 2], secant: &mut [f64]) -> TwistChange {
+/// Returns the direction of the slope of a node over a step, from its coordinates and their change.
+pub(super) fn node_step(q: &[f64], step: &[f64]) -> DirectionStep {
+    DirectionStep::of(Vector3::new(q[3], q[4], q[5]), &Vector3::new(step[3], step[4], step[5]))
+}
+
+/// Returns D Phi from coordinates `q` over `step` between the [directions](node_step) of its nodes,
+/// and writes the secant c to `secant`; `lengths` are those at both ends of the step.
+pub(super) fn twist_change(
+    q: &[f64],
+    step: &[f64],
+    [x, y]: [&DirectionStep; 2],
+    lengths: [f64; 2],
+    secant: &mut [f64],
+) -> TwistChange {
     let [first, last] = lengths.map(|length| 1.5 / length);
     let scale = 0.5 * (first + last);
     let chord = |x: &[f64]| Vector3::new(x[6] - x[0], x[7] - x[1], x[8] - x[2]);
     let mean_chord = chord(q) + chord(step) * 0.5;
-    let (start, mut change_of) = (slopes(q, first), slopes(step, scale));
-    change_of[1] += mean_chord * (last - first);
-    let [x, m, y] = core::array::from_fn(|k| DirectionStep::of(start[k], &change_of[k]));
+    let (start, mut change_of) = (slopes(q, first)[1], slopes(step, scale)[1]);
+    change_of += mean_chord * (last - first);
+    let m = DirectionStep::of(start, &change_of);
     let before = change([&x.start, &x.end], [&m.start, &m.end]);
     let behind = change([&m.start, &m.end], [&y.start, &y.end]);
     let (dx, dm, dy) = (x.change(), m.change(), y.change());

@@ -29,6 +29,11 @@ impl<'a> Lengths<'a> {
         (0..2).find(|&side| at[side] && self.at_eyes[side].is_some())
     }
 
+    /// Returns an element as it is between steps.
+    pub fn element(&self, e: usize) -> &'a Element {
+        &self.elements[e]
+    }
+
     /// Returns those of an element in m.
     pub fn of(&self, e: usize) -> [f64; 2] {
         self.side(e).and_then(|side| self.at_eyes[side]).unwrap_or([self.elements[e].length; 2])

@@ -25,6 +25,7 @@
 //! | `element` | twist of an element: gradient, Hessian, exact change |
 //! | `lengths` | lengths of elements over a step |
 //! | `curve` | what a change of the mesh does to the twist |
+//! | `stranded` | torque by tension of a stranded rope |
 //! | `segment` | segments of a cable, their torques, and what the state holds of them |
 //! | `rank` | the solution with K g g^T added to the matrix |
 //!
@@ -56,6 +57,7 @@ pub(crate) mod lengths;
 mod pair;
 pub(crate) mod rank;
 pub(crate) mod segment;
+pub(crate) mod stranded;
 #[cfg(test)]
 mod tests;
 
@@ -132,6 +134,13 @@ pub struct Torsion {
     /// at omega rad/s is 2 z/omega.
     #[serde(default)]
     pub damping: f64,
+    /// Torque per tension in m while twist is held: `c d` of a stranded rope with the torque factor
+    /// c and the diameter d, positive for a right-hand lay, which tension unlays; default 0, as a
+    /// section that is isotropic has it. EA is then the axial stiffness while twist is held, and
+    /// [`stiffness`](Self::stiffness) the torsional one while tension is: M = c d T + GJ times the
+    /// twist rate. Not on reels, nor with an axial law or a rest stretch.
+    #[serde(default)]
+    pub torque_per_tension: f64,
     /// Spin of the first node, if it is clamped.
     #[serde(default)]
     pub start: EndSpin,
@@ -143,7 +152,23 @@ pub struct Torsion {
 impl Torsion {
     /// Torsion of stiffness GJ in N m^2: untwisted as built, clamps hold the spin.
     pub fn new(stiffness: f64) -> Self {
-        Torsion { stiffness, initial_twist: 0.0, damping: 0.0, start: EndSpin::Held, end: EndSpin::Held }
+        let (initial_twist, damping, torque_per_tension) = (0.0, 0.0, 0.0);
+        Torsion { stiffness, initial_twist, damping, torque_per_tension, start: EndSpin::Held, end: EndSpin::Held }
+    }
+
+    /// That of a stranded rope of stiffness GJ in N m^2 by its torque factor c and its diameter in
+    /// m: at held twist the tension T makes the torque c d T. c is in the data of its maker:
+    /// about 0.1 for common six-strand ropes, near 0 for ropes that resist rotation.
+    ///
+    /// ```
+    /// use lariat_ancf::Torsion;
+    ///
+    /// // 10 kN on a held rope of 12 mm
+    /// let rope = Torsion::stranded(2.0, 0.1, 0.012);
+    /// assert!((rope.torque_per_tension * 10e3 - 12.0).abs() < 1e-9); // N m
+    /// ```
+    pub fn stranded(stiffness: f64, torque_factor: f64, diameter: f64) -> Self {
+        Torsion { torque_per_tension: torque_factor * diameter, ..Self::new(stiffness) }
     }
 
     /// That of a solid round section or a round tube of bending stiffness EI in N m^2 and a Poisson
@@ -176,6 +201,7 @@ impl Effect for Torsion {
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         require("torsional stiffness GJ (N m^2)", self.stiffness, self.stiffness > 0.0, "> 0")?;
         require("initial twist (turns)", self.initial_twist, true, "a number")?;
+        require("torque per tension (m)", self.torque_per_tension, true, "a number")?;
         require("damping time of torsion (s)", self.damping, self.damping >= 0.0, ">= 0")?;
         if cable.has_no_bending() {
             return Err(cable.missing("torsion", Requirement::BendingRule));

@@ -15,17 +15,21 @@
 //! rounding, however long the run: nothing drifts.
 
 use super::Torsion;
-use super::element::{self, COORDINATES, TwistChange, twist_change, twist_hessian};
+use super::element::{self, Blocks, COORDINATES, TwistChange, node_step, twist_change, twist_hessian};
 use super::lengths::Lengths;
-use crate::linalg::BlockTridiagonal;
+use super::stranded::{Strands, elongation, elongation_gradient, elongation_hessian};
+use crate::linalg::{Block, BlockTridiagonal};
 use crate::section::Element;
 use crate::state::SegmentTwist;
+use nalgebra::Matrix3;
 
 /// What the curve of a segment adds to its twist over a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CurveChange {
     /// Twist in rad.
     pub angle: f64,
+    /// What the elongation of a [stranded](super::stranded) rope counts as twist, in rad.
+    pub stretch: f64,
     /// Number of pairs that slip.
     pub slips: u64,
     /// Its secants in rad/m by the lengths of the elements at eyes, of the start and of the end of
@@ -40,13 +44,44 @@ pub(crate) struct Segment {
     pub nodes: [usize; 2],
     /// K in N m.
     pub stiffness: f64,
+    /// Where tension makes torque.
+    pub strands: Option<Strands>,
 }
 
 impl Segment {
     /// Returns that between two nodes that hold the spin of a cable, ascending.
     pub fn between(torsion: &Torsion, elements: &[Element], nodes: [usize; 2]) -> Self {
-        let length: f64 = elements[nodes[0]..nodes[1]].iter().map(|element| element.length).sum();
-        Segment { nodes, stiffness: torsion.stiffness / length }
+        let (own, strands) = (&elements[nodes[0]..nodes[1]], Strands::of(torsion));
+        let stiffness = match strands {
+            None => torsion.stiffness / own.iter().map(|element| element.length).sum::<f64>(),
+            Some(strands) => own.iter().map(|e| e.length / strands.torsional(e)).sum::<f64>().recip(),
+        };
+        Segment { nodes, stiffness, strands }
+    }
+
+    /// Returns the twist in rad that makes the torque at a twist of the material: that of the
+    /// elongation of a [stranded](super::stranded) rope with it.
+    pub fn loaded(&self, elements: &[Element], q: &[f64], twist: f64) -> f64 {
+        let Some(strands) = self.strands else { return twist };
+        let of =
+            |e: usize| strands.share(&elements[e]) * elongation(&q[6 * e..6 * e + COORDINATES], elements[e].length);
+        twist + self.elements().map(of).sum::<f64>()
+    }
+
+    /// Returns the twist rate in rad/m of an element at a twist of the material in rad: the same in
+    /// all, but where tension that differs along the segment makes torque.
+    pub fn rate_in(&self, elements: &[Element], q: &[f64], twist: f64, e: usize) -> f64 {
+        let Some(strands) = self.strands else {
+            return twist / elements[self.elements()].iter().map(|element| element.length).sum::<f64>();
+        };
+        let (element, own) = (&elements[e], &q[6 * e..6 * e + COORDINATES]);
+        let of_torque = self.torque(elements, q, twist) / strands.torsional(element);
+        of_torque - strands.share(element) * elongation(own, element.length) / element.length
+    }
+
+    /// Returns the torque in N m at a twist of the material in rad.
+    pub fn torque(&self, elements: &[Element], q: &[f64], twist: f64) -> f64 {
+        self.stiffness * self.loaded(elements, q, twist)
     }
 
     /// Returns the numbers of the elements.
@@ -84,13 +119,26 @@ impl Segment {
         secant.clear();
         secant.resize(self.range().len(), 0.0);
         let (mut sum, mut part) = (CurveChange::default(), [0.0; COORDINATES]);
+        let node = |n: usize| node_step(&q[6 * n..6 * n + 6], &step[6 * n..6 * n + 6]);
+        // neighbours share a node
+        let mut first = node(self.nodes[0]);
         self.for_each(|e, at, own| {
-            let change: TwistChange = twist_change(&q[at.clone()], &step[at], lengths.of(e), &mut part);
+            let last = node(e + 1);
+            let change: TwistChange =
+                twist_change(&q[at.clone()], &step[at], [&first, &last], lengths.of(e), &mut part);
+            first = last;
             sum.angle += change.angle;
             sum.slips += change.slips;
             if let Some(side) = lengths.side(e) {
                 sum.by_lengths[side] = change.by_length;
             }
+            secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
+        });
+        let Some(strands) = self.strands else { return sum };
+        self.for_each(|e, at, own| {
+            let (element, mean) = (lengths.element(e), |i: usize| q[at.start + i] + 0.5 * step[at.start + i]);
+            elongation_gradient(mean, element.length, strands.share(element), &mut part);
+            sum.stretch += step[at.clone()].iter().zip(&part).map(|(d, g)| d * g).sum::<f64>();
             secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
         });
         sum
@@ -112,6 +160,12 @@ impl Segment {
             element::twist_gradient(&q[at], elements[e].length, &mut part);
             gradient[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
         });
+        let Some(strands) = self.strands else { return };
+        self.for_each(|e, at, own| {
+            let (length, share) = (elements[e].length, strands.share(&elements[e]));
+            elongation_gradient(|i| q[at.start + i], length, share, &mut part);
+            gradient[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
+        });
     }
 
     /// Adds a factor times the Hessian of the twist at coordinates `q(i)` to a matrix.
@@ -128,24 +182,33 @@ impl Segment {
         let mut local = [0.0; COORDINATES];
         self.for_each(|e, at, _| {
             local.iter_mut().zip(at).for_each(|(out, i)| *out = q(i));
-            let blocks = twist_hessian(&local, lengths.mean(e), factor);
-            for column in 0..2 {
-                for row in 0..2 {
-                    for x in 0..3 {
-                        for y in 0..3 {
-                            let (r, c) = (3 * row + y, 3 * column + x);
-                            let own = |first: usize| {
-                                let (a, b) = (first + row, first + column);
-                                if a >= b { blocks[a][b][(y, x)] } else { blocks[b][a][(x, y)] }
-                            };
-                            matrix.diag[e].0[c][r] += own(0);
-                            matrix.diag[e + 1].0[c][r] += own(2);
-                            matrix.lower[e].0[c][r] += blocks[2 + row][column][(y, x)];
-                        }
-                    }
+            let blocks: Blocks = twist_hessian(&local, lengths.mean(e), factor);
+            for (row, column) in [(0, 0), (1, 0), (1, 1)] {
+                let (first, last) = (&blocks[row][column], &blocks[2 + row][2 + column]);
+                add_block(&mut matrix.diag[e], [row, column], first);
+                add_block(&mut matrix.diag[e + 1], [row, column], last);
+                if row != column {
+                    add_block(&mut matrix.diag[e], [column, row], &first.transpose());
+                    add_block(&mut matrix.diag[e + 1], [column, row], &last.transpose());
                 }
             }
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                add_block(&mut matrix.lower[e], [row, column], &blocks[2 + row][column]);
+            }
         });
+        let Some(strands) = self.strands else { return };
+        for e in self.elements() {
+            let (element, share) = (lengths.element(e), strands.share(lengths.element(e)));
+            let entry = |row: usize, column: usize| factor * share * elongation_hessian(row, column, element.length);
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                for x in 0..3 {
+                    let (r, c) = (3 * row + x, 3 * column + x);
+                    matrix.diag[e].0[c][r] += entry(row, column);
+                    matrix.diag[e + 1].0[c][r] += entry(2 + row, 2 + column);
+                    matrix.lower[e].0[c][r] += entry(2 + row, column);
+                }
+            }
+        }
     }
 
     /// Returns what is left of the twists of a state for this segment: of segments that it covers
@@ -165,6 +228,13 @@ impl Segment {
             }
         }
         own
+    }
+}
+
+/// Adds a block over r or t to one over both.
+fn add_block(to: &mut Block, [row, column]: [usize; 2], block: &Matrix3<f64>) {
+    for (to, from) in to.0[3 * column..3 * column + 3].iter_mut().zip(block.column_iter()) {
+        to[3 * row..3 * row + 3].iter_mut().zip(from.iter()).for_each(|(to, x)| *to += x);
     }
 }
 

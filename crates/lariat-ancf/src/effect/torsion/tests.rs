@@ -1,15 +1,25 @@
 //! The twist of elements against identities and differences.
 
 use super::curve::Curve;
-use super::element::{COORDINATES, twist_change, twist_gradient, twist_hessian};
+use super::element::{COORDINATES, TwistChange, node_step, twist_gradient, twist_hessian};
 use super::lengths::Lengths;
 use super::pair::change;
 use super::segment::Segment;
+use super::stranded::{elongation, elongation_gradient, elongation_hessian};
+use crate::effect::Torsion;
 use crate::element::shape;
+use crate::linalg::BlockTridiagonal;
+use crate::quadrature::gauss_legendre;
 use crate::section::Element;
 use nalgebra::{UnitQuaternion, Vector3};
 
 const LENGTH: f64 = 0.7;
+
+/// What the twist of an element by itself changes over a step.
+fn twist_change(q: &[f64], step: &[f64], lengths: [f64; 2], secant: &mut [f64]) -> TwistChange {
+    let [x, y] = [0..6, 6..12].map(|node| node_step(&q[node.clone()], &step[node]));
+    super::element::twist_change(q, step, [&x, &y], lengths, secant)
+}
 
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
@@ -138,7 +148,7 @@ fn a_change_of_the_mesh_adds_what_the_curve_does() {
             (6..12).for_each(|i| moved.q[i] += 0.2 * size * next());
             let elements = [0, 1].map(|_| Element { length: 0.5 * LENGTH, section });
             let step: Vec<f64> = moved.q.iter().zip(&halves.q).map(|(a, b)| a - b).collect();
-            let segment = Segment { nodes: [0, 2], stiffness: 1.0 };
+            let segment = Segment { nodes: [0, 2], stiffness: 1.0, strands: None };
             let found = segment.change(&Lengths::fixed(&elements), &halves.q, &step, &mut Vec::new());
             let by_curve = halves.change_to(&moved);
             assert!((found.angle - by_curve).abs() < 1e-13, "{size}: {found:?}, {by_curve}");
@@ -214,4 +224,93 @@ fn twist_does_not_drift() {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     let octant = change([&x, &z], [&y, &z]).angle;
     assert!((octant.abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{octant}");
+}
+
+/// The elongation of an element is the integral of its Green strain; its gradient at the mean is
+/// an exact secant, and its Hessian what that changes by.
+///
+/// *Source.* Gauss's rule of five points, exact to degree 9, on a polynomial of degree 4; it is
+/// quadratic in the coordinates.
+#[test]
+fn elongation_is_the_integral_of_the_strain_with_an_exact_secant() {
+    let mut next = random(23);
+    for _ in 0..200 {
+        let (q, to) = (element(0.5, &mut next), element(0.5, &mut next));
+        let slope = |xi: f64| {
+            let weights = shape::slope(xi, LENGTH);
+            (0..4).map(|k| vector(&q[3 * k..]) * weights[k]).sum::<Vector3<f64>>()
+        };
+        let exact: f64 = gauss_legendre(5)
+            .iter()
+            .map(|(xi, weight)| weight * LENGTH * 0.5 * (slope(*xi).norm_squared() - 1.0))
+            .sum();
+        assert!((elongation(&q, LENGTH) - exact).abs() < 1e-14, "{exact}");
+        let step: Vec<f64> = to.iter().zip(&q).map(|(a, b)| a - b).collect();
+        let [mut secant, mut first, mut last] = [[0.0; COORDINATES]; 3];
+        elongation_gradient(|i| q[i] + 0.5 * step[i], LENGTH, 1.0, &mut secant);
+        let change = elongation(&to, LENGTH) - elongation(&q, LENGTH);
+        assert!((dot(&secant, &step) - change).abs() < 1e-14, "{change}");
+        elongation_gradient(|i| q[i], LENGTH, 1.0, &mut first);
+        elongation_gradient(|i| to[i], LENGTH, 1.0, &mut last);
+        for i in 0..COORDINATES {
+            let by_hessian: f64 = (0..4).map(|k| elongation_hessian(i / 3, k, LENGTH) * step[3 * k + i % 3]).sum();
+            assert!((last[i] - first[i] - by_hessian).abs() < 1e-14, "{i}: {by_hessian}");
+        }
+    }
+}
+
+/// The matrix of a segment, bordered by its gradient, is the derivative of its force, of a rope
+/// whose tension makes torque, too; the force that of the energy.
+///
+/// *Source.* Central differences.
+#[test]
+fn the_bordered_matrix_of_a_segment_is_the_derivative_of_its_force() {
+    let mut next = random(29);
+    let sections = [900.0, 1500.0, 700.0].map(|axial| crate::Section::from_stiffness(axial, 1.0, 0.1).unwrap());
+    let elements = sections.map(|section| Element { length: LENGTH, section });
+    for per_tension in [0.0, 0.03, -0.2] {
+        let torsion = Torsion { torque_per_tension: per_tension, ..Torsion::new(0.8) };
+        let segment = Segment::between(&torsion, &elements, [0, 3]);
+        for _ in 0..20 {
+            let node = |i: usize| if i % 6 == 0 { LENGTH * (i / 6) as f64 } else { f64::from(u8::from(i % 6 == 3)) };
+            let q: Vec<f64> = (0..24).map(|i| node(i) + 0.15 * next()).collect();
+            let along: Vec<f64> = (0..24).map(|_| next()).collect();
+            let twist = 4.0 * next();
+            let (mut buffer, mut gradient) = (Vec::new(), Vec::new());
+            let mut at = |h: f64| {
+                let step: Vec<f64> = along.iter().map(|x| h * x).collect();
+                let to: Vec<f64> = q.iter().zip(&step).map(|(a, b)| a + b).collect();
+                let twist = twist + segment.change(&Lengths::fixed(&elements), &q, &step, &mut buffer).angle;
+                segment.gradient(&elements, &to, &mut gradient);
+                let torque = segment.torque(&elements, &to, twist);
+                let energy = 0.5 * segment.stiffness * segment.loaded(&elements, &to, twist).powi(2);
+                (energy, gradient.iter().map(|g| torque * g).collect::<Vec<f64>>())
+            };
+            let h = 1e-5;
+            let ((_, force), (above, f1), (below, f0)) = (at(0.0), at(h), at(-h));
+            let by_energy = (above - below) / (2.0 * h);
+            assert!((dot(&force, &along) - by_energy).abs() < 1e-6 * (1.0 + by_energy.abs()), "{by_energy}");
+            let mut matrix = BlockTridiagonal::zeros(4);
+            let torque = segment.torque(&elements, &q, twist);
+            segment.add_hessian(&Lengths::fixed(&elements), |i| q[i], torque, &mut matrix);
+            segment.gradient(&elements, &q, &mut gradient);
+            let border = segment.stiffness * dot(&gradient, &along);
+            let mut product: Vec<f64> = gradient.iter().map(|g| border * g).collect();
+            for n in 0..4 {
+                for (r, c) in (0..6).flat_map(|r| (0..6).map(move |c| (r, c))) {
+                    product[6 * n + r] += matrix.diag[n].0[c][r] * along[6 * n + c];
+                    if n < 3 {
+                        product[6 * n + 6 + r] += matrix.lower[n].0[c][r] * along[6 * n + c];
+                        product[6 * n + c] += matrix.lower[n].0[c][r] * along[6 * n + 6 + r];
+                    }
+                }
+            }
+            let scale = product.iter().fold(1.0f64, |most, x| most.max(x.abs()));
+            // the holonomy of the frames at both ends is not in the symmetric matrix
+            for i in (0..24).filter(|i| !(3..6).contains(i) && !(21..24).contains(i)) {
+                let exact = (f1[i] - f0[i]) / (2.0 * h);
+                assert!((product[i] - exact).abs() < 1e-6 * scale, "{per_tension}, {i}: {} {exact}", product[i]);
+            }
+        }
+    }
 }

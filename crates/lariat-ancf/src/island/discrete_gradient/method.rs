@@ -20,7 +20,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, .. } = cable.step_parts();
             equations.begin_host_step(state);
-            equations.note_load(state.time, &state.q, &state.v);
+            equations.note_load(state.time, [&state.q, &state.v], &state.memory.torsion);
         }
         self.cables[0].step_buffers.after = None;
         Terms::begin_host_step(self);
@@ -95,7 +95,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
         law.shortened += shortened;
         for cable in self.cables.iter_mut() {
             let CableStep { mut equations, state, .. } = cable.step_parts();
-            equations.note_load(state.time, &state.q, &state.v);
+            equations.note_load(state.time, [&state.q, &state.v], &state.memory.torsion);
         }
     }
 

@@ -68,7 +68,8 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
             let cable = &island.cables[own.cable];
             let memory = &cable.snapshot.state.memory;
             let twist = memory.torsion.as_ref().and_then(|twists| twists.get(own.number)).copied().unwrap_or_default();
-            own.start = twist.twist;
+            let (elements, q) = (cable.elements(), cable.positions());
+            (own.material, own.start) = (twist.twist, own.segment.loaded(elements, q, twist.twist));
             own.remembered = if memory.differences.is_empty() { 0.0 } else { cable.step_buffers.kept * twist.change };
         }
     }
@@ -124,7 +125,7 @@ impl StepTerm<IslandStep<'_, '_>> for Torsion {
             };
             // as it counts at the end of the step
             let kept = own.change * (own.mean_stiffness() / own.stiffness[1]).sqrt();
-            (twist.twist, twist.change) = (own.start + own.change, kept);
+            (twist.twist, twist.change) = (own.material + (own.change - own.stretch), kept);
         }
         island.note_attitudes();
     }
@@ -195,10 +196,10 @@ impl IslandStep<'_, '_> {
             let (torsion, at_eyes) =
                 (model.effects.torsion.as_ref(), system.feeds.lengths_over(snapshot.state.time, b.h));
             let lengths = Lengths::with_eyes(&model.elements, at_eyes);
-            let CurveChange { angle, slips, by_lengths } =
+            let CurveChange { angle, stretch, slips, by_lengths } =
                 own.segment.change(&lengths, &snapshot.state.q, &b.change, &mut own.secant);
             diagnostics.effects.torsion += own.segment.count();
-            (own.slips, own.change) = (slips, angle);
+            (own.slips, own.change, own.stretch) = (slips, angle, stretch);
             own.stiffness = own.segment.stiffnesses(torsion, &lengths);
             let stiffness = own.mean_stiffness();
             own.before = own.remembered * (own.stiffness[0] / stiffness).sqrt();
@@ -213,6 +214,9 @@ impl IslandStep<'_, '_> {
                     end.follow(&bodies[body], hold, self.layout, [time, time + b.h]);
                 }
                 own.change += SIGNS[side] * end.angle;
+            }
+            if own.segment.strands.is_some() {
+                own.change += stretch;
             }
             own.torque = stiffness * (own.start + b.leg.b * own.change - b.leg.a * own.before)
                 + own.damping * stiffness * own.change / b.h;

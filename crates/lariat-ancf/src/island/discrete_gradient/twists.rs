@@ -36,12 +36,15 @@ pub(super) struct SegmentStep {
     pub stiffness: [f64; 2],
     /// tau in s.
     pub damping: f64,
-    /// Phi0, and O Phi as remembered and as of this step.
+    /// Twist of the material at the start of the step; Phi0, which has what the elongation of a
+    /// stranded rope counts with it; and O Phi as remembered and as of this step.
+    pub material: f64,
     pub start: f64,
     pub remembered: f64,
     pub before: f64,
-    /// D Phi and M^ of the iterate.
+    /// D Phi, its part of the elongation, and M^ of the iterate.
     pub change: f64,
+    pub stretch: f64,
     pub torque: f64,
     /// Pairs that slip in it.
     pub slips: u64,
@@ -67,7 +70,7 @@ pub(super) const SIGNS: [f64; 2] = [-1.0, 1.0];
 
 impl SegmentStep {
     pub fn new(segment: Segment) -> Self {
-        let (damping, start, remembered, before, change, torque) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let (damping, [material, start, remembered, before], [change, stretch, torque]) = (0.0, [0.0; 4], [0.0; 3]);
         let ends = [End::default(); 2];
         SegmentStep {
             cable: 0,
@@ -75,10 +78,12 @@ impl SegmentStep {
             segment,
             stiffness: [0.0; 2],
             damping,
+            material,
             start,
             remembered,
             before,
             change,
+            stretch,
             torque,
             slips: 0,
             secant: Vec::new(),
