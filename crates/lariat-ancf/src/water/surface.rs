@@ -127,12 +127,7 @@ impl Sea {
             Some(airy) => {
                 let z = self.up.dot(position) - self.level;
                 let orbit = airy.orbit(time, position, z, &self.up, self.gravity);
-                SeaPoint {
-                    depth,
-                    velocity: orbit.velocity,
-                    acceleration: orbit.acceleration,
-                    pressure: orbit.pressure,
-                }
+                SeaPoint { depth, velocity: orbit.velocity, acceleration: orbit.acceleration, pressure: orbit.pressure }
             }
         }
     }

@@ -370,14 +370,10 @@ impl PointForce for DragTable {
                 rate += (ends[0].velocity - ends[1].velocity) / (2.0 * step);
                 let [above, below] = ends.map(|end| end.depth / radius);
                 let depth = here.depth / radius;
-                share = Dual {
-                    value: wet::share(depth),
-                    slope: wet::slope(depth) * (above - below) / (2.0 * step),
-                };
+                share = Dual { value: wet::share(depth), slope: wet::slope(depth) * (above - below) / (2.0 * step) };
             }
             let velocity = mix(v, &point.position);
-            let relative: [Dual; 3] =
-                core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: rate[c] });
+            let relative: [Dual; 3] = core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: rate[c] });
             let direction = mix(q, &point.slope).map(|c| c * (1.0 / length));
             let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| share * (k * length * point.weight));
             let force = Split::new(&relative, &direction).force(kn, kt);
