@@ -358,6 +358,18 @@ pub(crate) mod water {
     /// position takes about ten.
     pub(crate) const HEIGHT_ROUNDS: u32 = 40;
 
+    /// Change of the drag over drag and weight below which buoyancy and drag of a step agree. Derived:
+    /// the rounding of forces in single precision.
+    pub(crate) const SAME_DRAG: f64 = 1e-7;
+
+    /// Most rounds in which they come to agree. Unknown: one or two do, but where a light body falls
+    /// into water.
+    pub(crate) const STEP_ROUNDS: u32 = 8;
+
+    /// Rise over the radius of a body below which the mean volume over the step is that at its
+    /// middle. Derived: the error of either is then about 1e-11.
+    pub(crate) const SMALLEST_RISE: f64 = 1e-5;
+
     /// l h below which its means are series. Derived: the next term, z^4/120, is then below the
     /// rounding of `f64`.
     pub(crate) const SERIES: f64 = 3e-4;

@@ -4,7 +4,8 @@ use super::drag::mean_drag;
 use super::hull::{Hull, Wet};
 use crate::convert::{rotation, symmetric_inertia, to_vector, vector};
 use crate::error::Error;
-use crate::scales::water::HEIGHT_ROUNDS;
+use crate::scales::water::{HEIGHT_ROUNDS, SAME_DRAG, SMALLEST_RISE, STEP_ROUNDS};
+use crate::set::CableSet;
 use ::nalgebra::{UnitQuaternion, Vector3};
 use lariat_ancf::{Sea, Water};
 use rapier::dynamics::{MassProperties, RigidBody, RigidBodyHandle};
@@ -85,22 +86,21 @@ struct Member {
     memory: Memory,
 }
 
-/// Force and moment of the water on a body about its centre of mass, without what balances the
-/// weight of the added mass.
+/// Forces of the water on a body, without what balances the weight of the added mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WaterForce {
-    /// Buoyancy and the pressure of the wave in N.
+    /// Buoyancy and the pressure of the wave in N, world axes.
     pub pressure: Vector3<f64>,
-    /// Where it acts in m, in world axes.
-    pub centre: Vector3<f64>,
-    /// Drag in N.
+    /// Where it acts in m, in the axes of the body from its origin.
+    pub pressure_point: Vector3<f64>,
+    /// Drag in N, world axes.
     pub drag: Vector3<f64>,
-    /// Where it acts in m.
+    /// Where it acts in m, in the axes of the body from its origin.
     pub drag_point: Vector3<f64>,
     /// Force of the wave on the added mass, in N, through the centre of mass.
     pub inertia: Vector3<f64>,
-    /// Moment of the drag of rotation in N m.
+    /// Moment of the drag of rotation in N m, world axes.
     pub spin_drag: Vector3<f64>,
     /// Share of the volume that is wet.
     pub wet: f64,
@@ -203,26 +203,33 @@ impl BodiesInWater {
     }
 
     /// Adds the forces of the water over a host step from `time` (s), of length `dt` (s), to the
-    /// forces of all bodies; reset those of the last step before. Bodies that are no longer in the
-    /// world are left out; those that sleep in water without a wave sleep on.
-    pub fn apply(&mut self, world: &mut PhysicsWorld, time: f64, dt: f64) {
+    /// forces of all bodies; reset those of the last step before, and step `cables` after. Bodies
+    /// that are no longer in the world are left out; those that sleep in water without a wave sleep
+    /// on.
+    pub fn apply(&mut self, world: &mut PhysicsWorld, cables: &CableSet, time: f64, dt: f64) {
+        if dt <= 0.0 {
+            return;
+        }
         let gravity = vector(world.gravity);
         let BodiesInWater { water, members } = self;
         let sea = water.flow.surface.as_ref().map(|surface| surface.sea());
         let moves = water.wave().is_some() || !water.flow.history.is_empty();
+        let substeps =
+            world.integration_parameters.num_solver_iterations.max(1) as f64 * cables.rapier_steps(world, dt);
         for member in members {
             let Some(body) = world.bodies.get_mut(member.body) else { continue };
-            if !body.is_dynamic() || !body.is_enabled() || dt <= 0.0 || (body.is_sleeping() && !moves) {
+            if !body.is_dynamic() || !body.is_enabled() || (body.is_sleeping() && !moves) {
                 member.memory = Memory::default();
                 continue;
             }
-            let input = Input { water, sea: sea.as_ref(), gravity, time: time + 0.5 * dt, h: dt };
-            let force = member.force(body, &input);
-            let centre = vector(body.center_of_mass()) + vector(body.linvel()) * (0.5 * dt);
-            let scale = f64::from(body.gravity_scale());
+            // Rapier's substeps move a body further by a constant force than the force would
+            let lead = if cables.moves(member.body) { 0.0 } else { 0.5 * dt / substeps };
+            let input = Input { water, sea: sea.as_ref(), gravity, time: time + 0.5 * dt, h: dt, lead };
+            let (force, turned) = member.force(body, &input);
+            let (centre, scale) = (vector(body.local_center_of_mass()), f64::from(body.gravity_scale()));
             let sum = force.pressure + force.drag + force.inertia - gravity * (scale * member.added);
-            let moment = (force.centre - centre).cross(&force.pressure)
-                + (force.drag_point - centre).cross(&force.drag)
+            let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
+                + (turned * (force.drag_point - centre)).cross(&force.drag)
                 + force.spin_drag;
             body.add_force(to_vector(&sum), true);
             body.add_torque(to_vector(&moment), true);
@@ -238,11 +245,12 @@ impl BodiesInWater {
             surface.wave = None;
         }
         let sea = water.flow.surface.as_ref().map(|surface| surface.sea());
-        let input = Input { water: &water, sea: sea.as_ref(), gravity: vector(world.gravity), time, h: 0.0 };
+        let gravity = vector(world.gravity);
+        let input = Input { water: &water, sea: sea.as_ref(), gravity, time, h: 0.0, lead: 0.0 };
         let mut still = world.bodies.get(body)?.clone();
         still.set_linvel(Vector::ZERO, false);
         still.set_angvel(Vector::ZERO, false);
-        Some(Member { memory: Memory::default(), ..member.clone() }.force(&still, &input))
+        Some(Member { memory: Memory::default(), ..member.clone() }.force(&still, &input).0)
     }
 }
 
@@ -274,72 +282,85 @@ struct Input<'a> {
     /// Middle of the step in s.
     time: f64,
     h: f64,
+    /// Time in s by which the position is ahead of one that a constant force moves exactly.
+    lead: f64,
 }
 
-/// A body in the middle of a step.
+/// A body in a step.
 struct Place {
-    /// Centroid of its volume in m.
+    /// Centroid of its volume in m, in the middle of the step but for the height, at its beginning.
     centre: Vector3<f64>,
     rotation: UnitQuaternion<f64>,
+    mass: f64,
+    velocity: Vector3<f64>,
 }
 
 impl Member {
-    /// Returns the mean force over a step, and remembers what the next one needs.
-    fn force(&mut self, body: &RigidBody, input: &Input<'_>) -> WaterForce {
-        let &Input { water, sea, gravity, time, h } = input;
+    /// Returns the mean force over a step with the attitude in its middle, and remembers what the
+    /// next one needs.
+    fn force(&mut self, body: &RigidBody, input: &Input<'_>) -> (WaterForce, UnitQuaternion<f64>) {
+        let &Input { water, sea, gravity, time, h, lead } = input;
         let (rho, half) = (water.density, 0.5 * h);
         let (mass, velocity, spin) = (f64::from(body.mass()), vector(body.linvel()), vector(body.angvel()));
-        let own = mass - self.added;
-        let weight = gravity * (own * f64::from(body.gravity_scale()));
-        let user = vector(body.user_force());
-        let unknown = self.unknown(mass, &velocity);
+        let weight = gravity * ((mass - self.added) * f64::from(body.gravity_scale()));
+        let known = weight + vector(body.user_force());
+        let others = known + self.unknown(mass, &velocity);
         let turned = UnitQuaternion::from_scaled_axis(spin * half) * rotation(*body.rotation());
-        let mass_centre = vector(body.center_of_mass()) + velocity * half;
         let arm = turned * (self.hull.centre() - vector(body.local_center_of_mass()));
-        let mut place = Place { centre: mass_centre + arm, rotation: turned };
-        let others = weight + user + unknown + self.memory.drag;
-        let rise = sea.map_or(0.0, |sea| self.rise(input, sea, &place, others.dot(&sea.up()), mass));
-        let shift = sea.map_or(Vector3::zeros(), |sea| sea.up() * rise);
-        place.centre += shift;
-        let wet = self.wet(input, &place);
-        let pressed = place.centre + turned * (wet.centre - self.hull.centre());
-        let at = sea.map(|sea| sea.at(time, &pressed));
-        let acceleration = at.map_or(Vector3::zeros(), |at| at.acceleration);
-        let share = if self.floating > 0.0 { (wet.volume / self.floating).min(1.0) } else { 0.0 };
-        let pressure = (acceleration - gravity) * (rho * wet.volume);
-        let inertia = acceleration * (share * self.added);
-        let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &place.centre).velocity);
-        let flow = water.current(time, &place.centre) + wave;
-        // drag, in axes of the body
-        let to_body = |x: &Vector3<f64>| turned.inverse() * x;
-        let relative = to_body(&(velocity + spin.cross(&arm) - flow));
+        let start = vector(body.center_of_mass()) - velocity * lead + arm;
+        let up = sea.map_or(Vector3::zeros(), |sea| sea.up());
+        let across = velocity - up * up.dot(&velocity);
+        let place = Place { centre: start + across * half, rotation: turned, mass, velocity };
         let moments = symmetric_inertia(body).diagonal();
         let least = moments.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
+        // what a force at the centroid feels of the mass
         let felt = 1.0 / (1.0 / mass + arm.norm_squared() / least);
-        let forces = weight + user + unknown + pressure + inertia - acceleration * mass;
-        let factor = 0.5 * rho * share;
-        let (drag, spin_drag) = if h > 0.0 {
-            let drag =
-                mean_drag(&Vector3::repeat(felt), &(self.immersed.drag_area * factor), &relative, &to_body(&forces), h);
-            let torque = vector(body.user_torque()) + (pressed - shift - mass_centre).cross(&pressure);
+        let to_body = |x: &Vector3<f64>| turned.inverse() * x;
+        let mut drag = self.memory.drag;
+        let mut rounds = 0;
+        loop {
+            let (volume, rise) = self.displaced(input, &place, up.dot(&(others + drag)));
+            let middle = place.centre + up * (0.5 * rise);
+            let wet = self.wet(input, &middle, &turned);
+            let at = sea.map(|sea| sea.at(time, &(middle + turned * (wet.centre - self.hull.centre()))));
+            let acceleration = at.map_or(Vector3::zeros(), |at| at.acceleration);
+            let share = if self.floating > 0.0 { (wet.volume / self.floating).min(1.0) } else { 0.0 };
+            let pressure = acceleration * (rho * wet.volume) - gravity * (rho * volume);
+            let inertia = acceleration * (share * self.added);
+            let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &middle).velocity);
+            let relative = to_body(&(velocity + spin.cross(&arm) - water.current(time, &middle) - wave));
+            let factor = 0.5 * rho * share;
+            let coefficient = self.immersed.drag_area * factor;
+            let mean = if h > 0.0 {
+                let forces = to_body(&(others + pressure + inertia - acceleration * mass));
+                mean_drag(&Vector3::repeat(felt), &coefficient, &relative, &forces, h)
+            } else {
+                -coefficient.component_mul(&relative) * relative.norm()
+            };
+            let change = turned * mean - drag;
+            drag += change;
+            rounds += 1;
+            // buoyancy depends on how far drag lets the body go
+            let settled = sea.is_none() || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm());
+            if !settled && rounds < STEP_ROUNDS && h > 0.0 {
+                continue;
+            }
             let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });
-            let coefficient = self.immersed.spin_drag * factor;
-            (drag, mean_drag(&inertias, &coefficient, &to_body(&spin), &to_body(&torque), h))
-        } else {
-            (-self.immersed.drag_area.component_mul(&relative) * (factor * relative.norm()), Vector3::zeros())
-        };
-        let drag = turned * drag;
-        let known = weight + user + pressure + inertia + drag;
-        self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
-        WaterForce {
-            pressure,
-            // forces are given to the body without the rise, which is part of the step
-            centre: pressed - shift,
-            drag,
-            drag_point: place.centre - shift,
-            inertia,
-            spin_drag: turned * spin_drag,
-            wet: wet.volume / self.hull.volume(),
+            let torque = (turned * (wet.centre - vector(body.local_center_of_mass()))).cross(&pressure);
+            let torque = to_body(&(torque + arm.cross(&drag) + vector(body.user_torque())));
+            let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
+            let known = known + pressure + inertia + drag;
+            self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
+            let force = WaterForce {
+                pressure,
+                pressure_point: wet.centre,
+                drag,
+                drag_point: self.hull.centre(),
+                inertia,
+                spin_drag: turned * spin_drag,
+                wet: wet.volume / self.hull.volume(),
+            };
+            return (force, turned);
         }
     }
 
@@ -356,53 +377,80 @@ impl Member {
         last.zip_map(&before, |a, b| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()).copysign(a) })
     }
 
-    /// Returns what is below the surface at a place.
-    fn wet(&self, input: &Input<'_>, place: &Place) -> Wet {
+    /// Returns what is below the surface with the centroid of the whole at a point.
+    fn wet(&self, input: &Input<'_>, centre: &Vector3<f64>, rotation: &UnitQuaternion<f64>) -> Wet {
         let Some(sea) = input.sea else {
             return self.hull.below(&Vector3::y(), f64::INFINITY);
         };
-        let normal = sea.normal(input.time, &place.centre);
+        let normal = sea.normal(input.time, centre);
         // along up from the surface to the centre, across the plane that it is
-        let depth = sea.depth(input.time, &place.centre) * normal.dot(&sea.up());
-        self.hull.below(&(place.rotation.inverse() * normal), depth)
+        let depth = sea.depth(input.time, centre) * normal.dot(&sea.up());
+        self.hull.below(&(rotation.inverse() * normal), depth)
     }
 
-    /// Returns by how much the middle of the step is above that of a uniform motion, in m: the root
-    /// of r = h^2/4m (f + rho g V_s(r)), which has one, since V_s falls.
-    fn rise(&self, input: &Input<'_>, sea: &Sea, place: &Place, others: f64, mass: f64) -> f64 {
-        let factor = input.h * input.h / (4.0 * mass);
-        let weight = input.water.density * -input.gravity.dot(&sea.up());
-        let excess = |r: f64| {
-            let at = Place { centre: place.centre + sea.up() * r, rotation: place.rotation };
-            factor * (others + weight * self.wet(input, &at).volume) - r
+    /// Returns the mean volume displaced over a step and the rise in it, in m: the root r of
+    /// r = h v + h^2/2m (f + rho g V(r)), V(r) the mean over the rise, which falls with it.
+    fn displaced(&self, input: &Input<'_>, place: &Place, others: f64) -> (f64, f64) {
+        let whole = self.hull.volume();
+        let Some(sea) = input.sea else { return (whole, 0.0) };
+        let up = sea.up();
+        let Input { h, water, gravity, .. } = input;
+        let (factor, weight) = (h * h / (2.0 * place.mass), water.density * -gravity.dot(&up));
+        let normal = sea.normal(input.time, &place.centre);
+        let tilt = normal.dot(&up);
+        let depth = sea.depth(input.time, &place.centre) * tilt;
+        let normal = place.rotation.inverse() * normal;
+        let below = |rise: f64| self.hull.below(&normal, depth - rise * tilt);
+        // volume times the depth of its centroid: its derivative by the depth is the volume
+        let moment = |wet: &Wet, rise: f64| {
+            wet.volume * (depth / tilt - rise - normal.dot(&(wet.centre - self.hull.centre())) / tilt)
         };
-        let [mut low, mut high] = [factor * others, factor * (others + weight.max(0.0) * self.hull.volume())];
-        let [mut at_low, mut at_high] = [excess(low), excess(high)];
-        if at_low <= 0.0 || low >= high {
-            return low;
+        let first = below(0.0);
+        let start = moment(&first, 0.0);
+        let mean = |rise: f64| {
+            let last = below(rise);
+            if first.volume == last.volume && (first.volume == whole || first.volume == 0.0) {
+                first.volume
+            } else if rise.abs() < SMALLEST_RISE * self.hull.radius() {
+                below(0.5 * rise).volume
+            } else {
+                ((start - moment(&last, rise)) / rise).clamp(0.0, whole)
+            }
+        };
+        let uniform = h * up.dot(&place.velocity) + factor * others;
+        let excess = |rise: f64, volume: f64| uniform + factor * weight * volume - rise;
+        let (mut low, mut high) = (uniform, uniform + factor * weight.max(0.0) * whole);
+        if low >= high {
+            return (mean(low), low);
+        }
+        let [dry, wet] = [mean(low), mean(high)];
+        let [mut at_low, mut at_high] = [excess(low, dry), excess(high, wet)];
+        if at_low <= 0.0 {
+            return (dry, low);
         }
         if at_high >= 0.0 {
-            return high;
+            return (wet, high);
         }
         // false position after Illinois
-        let mut side = 0;
-        let mut root = low;
+        let (mut side, mut found) = (0, (dry, low));
         for _ in 0..HEIGHT_ROUNDS {
-            root = low + (high - low) * (at_low / (at_low - at_high));
-            let here = excess(root);
-            if here == 0.0 || (high - low).abs() <= f64::EPSILON * self.hull.radius() {
+            let rise = low + (high - low) * (at_low / (at_low - at_high));
+            let volume = mean(rise);
+            let here = excess(rise, volume);
+            found = (volume, rise);
+            if here.abs() <= f64::EPSILON * self.hull.radius() {
                 break;
             }
             if here > 0.0 {
-                (low, at_low) = (root, here);
+                (low, at_low) = (rise, here);
                 at_high *= if side == 1 { 0.5 } else { 1.0 };
                 side = 1;
             } else {
-                (high, at_high) = (root, here);
+                (high, at_high) = (rise, here);
                 at_low *= if side == -1 { 0.5 } else { 1.0 };
                 side = -1;
             }
         }
-        root
+        found
     }
 }

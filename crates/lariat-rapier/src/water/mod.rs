@@ -17,7 +17,7 @@
 //!     let dt = 1.0 / 60.0;
 //!     world.bodies[float].reset_forces(true); // yours and those of the last step
 //!     world.bodies[float].reset_torques(true);
-//!     water.apply(&mut world, f64::from(step) * dt, dt);
+//!     water.apply(&mut world, &cables, f64::from(step) * dt, dt);
 //!     cables.step(&mut world)?;
 //! }
 //! assert!(world.bodies[float].translation().y.abs() < 0.01); // half of it is below
@@ -38,9 +38,15 @@
 //! Krylov) act at the centroid of V_s, drag at that of V. a has no weight, and is part of the mass of
 //! the body in Rapier.
 //!
-//! *Over a host step* all of it is one constant force and moment: buoyancy on the body where it is in
-//! the middle of the step, by an implicit equation in its height, and the mean drag of [`drag`]. An
-//! undamped float keeps its energy, whatever the step; drag does not reverse a velocity.
+//! *Over a host step* all of it is one constant force and moment: the mean buoyancy over the rise r of
+//! the step at the attitude in its middle, and the mean drag of [`drag`],
+//!
+//! ```text
+//! r = h v + h^2/2m (f + rho g V^)        V^ = (V_s d(0) - V_s d(r))/r        d: depth of the centroid of V_s
+//! ```
+//!
+//! V_s d is the energy of the displaced water over rho g, so an undamped float that heaves keeps its
+//! energy, whatever the step. Drag does not reverse a velocity.
 //!
 //! # Validity
 //!
