@@ -13,6 +13,7 @@ mod reading;
 mod script;
 mod statics;
 mod warnings;
+mod water;
 
 pub use build::collider;
 pub use energy::BodyTerms;
@@ -133,7 +134,8 @@ impl Physics {
         let mut cables = CableSet::new();
         cables.settings.watch = false;
         let (rapier_steps, load_work) = (RAPIER_STEPS, vec![0.0; bodies.len()]);
-        let script = Script::new(scene, &bodies);
+        let mut script = Script::new(scene, &bodies);
+        script.water = water::fill(&mut world, scene, &bodies)?;
         Ok(Physics {
             world,
             bodies,
@@ -262,7 +264,7 @@ impl Physics {
     /// # Errors
     /// [`Error::Mechanics`] names the cable and the time, [`Error::Body`] the body.
     pub fn advance(&mut self, scene: &Scene, from: f64, to: f64) -> Result<(), Error> {
-        self.script.set(&mut self.world, from, to);
+        self.script.set(&mut self.world, &self.cables, from, to);
         // steps rounded to single precision add up to another time: the next step compensates for the last
         let dt = (to - self.reached) as Real;
         if dt <= 0.0 {
