@@ -74,8 +74,8 @@ pub(crate) fn symmetric(s: &AngularInertia) -> na::Matrix3<f64> {
     na::Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from)
 }
 
-/// Returns the inertia of a body about its centre of mass in kg m^2, in its axes; zero if it does not
-/// rotate.
+/// Returns the inertia of a body about its centre of mass in kg m^2, in its axes; zero if it does
+/// not rotate.
 pub(crate) fn symmetric_inertia(body: &rapier::dynamics::RigidBody) -> na::Matrix3<f64> {
     let local = &body.mass_properties().local_mprops;
     let inverse = local.inv_principal_inertia;

@@ -343,8 +343,8 @@ pub(crate) mod set {
 
 /// Of [`water`](crate::water).
 pub(crate) mod water {
-    /// Sides of the prism that stands for a cylinder, cone or capsule. Derived: its radius is off by
-    /// less than 0.3 % anywhere, with the true volume.
+    /// Sides of the prism that stands for a cylinder, cone or capsule. Derived: its radius is off
+    /// by less than 0.3 % anywhere, with the true volume.
     pub(crate) const SIDES: u32 = 48;
 
     /// Rings of a half ball of a capsule. Derived: as many as a quarter of its circle has sides.
@@ -358,12 +358,12 @@ pub(crate) mod water {
     /// position takes about ten.
     pub(crate) const HEIGHT_ROUNDS: u32 = 40;
 
-    /// Change of the drag over drag and weight below which buoyancy and drag of a step agree. Derived:
-    /// the rounding of forces in single precision.
+    /// Change of the drag over drag and weight below which buoyancy and drag of a step agree.
+    /// Derived: the rounding of forces in single precision.
     pub(crate) const SAME_DRAG: f64 = 1e-7;
 
-    /// Most rounds in which they come to agree. Unknown: one or two do, but where a light body falls
-    /// into water.
+    /// Most rounds in which they come to agree. Unknown: one or two do, but where a light body
+    /// falls into water.
     pub(crate) const STEP_ROUNDS: u32 = 8;
 
     /// Rise over the radius of a body below which the mean volume over the step is that at its

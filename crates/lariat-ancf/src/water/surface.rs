@@ -115,8 +115,8 @@ impl Sea {
         }
     }
 
-    /// Returns depth and motion of the water at a position (m) and a time (s); above the surface the
-    /// motion on it.
+    /// Returns depth and motion of the water at a position (m) and a time (s); above the surface
+    /// the motion on it.
     pub fn at(&self, time: f64, position: &Vector3<f64>) -> SeaPoint {
         let depth = self.depth(time, position);
         match &self.airy {
@@ -142,7 +142,8 @@ impl Sea {
 mod tests {
     use super::*;
 
-    /// *Source.* Wheeler's stretching puts the pressure of the linear theory at its mean level onto the surface.
+    /// *Source.* Wheeler's stretching puts the pressure of the linear theory at its mean level onto
+    /// the surface.
     #[test]
     fn the_pressure_on_the_surface_is_zero_in_a_crest_and_in_a_trough() {
         let wave = Wave { depth: Some(20.0), ..Wave::deep(1.5, 8.0, Vector3::x()) };

@@ -9,8 +9,8 @@
 //! C, S = cosh, sinh(k (z' + d))/sinh(k d)        P = cosh(k (z' + d))/cosh(k d)        z' = d (z - eta)/(d + eta)
 //! ```
 //!
-//! x along the direction of the wave, z upwards from the level of the water at rest, d the depth; in
-//! deep water C = S = P = exp(k z') and z' = z - eta. z' is Wheeler's: the wave at the surface
+//! x along the direction of the wave, z upwards from the level of the water at rest, d the depth;
+//! in deep water C = S = P = exp(k z') and z' = z - eta. z' is Wheeler's: the wave at the surface
 //! itself is that of the linear theory at its mean level, so that velocities stay bounded in a
 //! crest, and the pressure, p - rho g z, is zero on the surface. p is the dynamic pressure.
 //!
@@ -30,8 +30,9 @@
 //!
 //! # Alternatives considered
 //!
-//! Evaluation at the mean level alone, with the values of z = 0 above: discontinuous slopes at z = 0
-//! for what floats there. Powers and sines of the platform: their last bits differ between machines.
+//! Evaluation at the mean level alone, with the values of z = 0 above: discontinuous slopes at z =
+//! 0 for what floats there. Powers and sines of the platform: their last bits differ between
+//! machines.
 
 use crate::error::{Error, require, require_finite};
 use crate::scales::water::{DISPERSION_ROUNDS, STEEPEST};
@@ -190,8 +191,8 @@ mod tests {
         Wave { phase: 0.3, depth, ..Wave::deep(0.4, 6.0, Vector3::new(1.0, 5.0, 1.0)) }
     }
 
-    /// *Source.* The relation itself, over eight decades of depth; omega^2/g in deep and omega/sqrt(g d) in shallow
-    /// water.
+    /// *Source.* The relation itself, over eight decades of depth; omega^2/g in deep and
+    /// omega/sqrt(g d) in shallow water.
     #[test]
     fn the_wave_number_solves_the_dispersion_relation_to_rounding() {
         for period in [0.5, 2.0, 8.0, 20.0] {
@@ -208,8 +209,9 @@ mod tests {
         }
     }
 
-    /// *Source.* Central differences of the velocity in time with z' held, and of velocity in place: the flow is free of
-    /// divergence and rotation, and the pressure obeys Bernoulli's linear law, grad p = -rho du/dt, at the mean level.
+    /// *Source.* Central differences of the velocity in time with z' held, and of velocity in
+    /// place: the flow is free of divergence and rotation, and the pressure obeys Bernoulli's
+    /// linear law, grad p = -rho du/dt, at the mean level.
     #[test]
     fn the_motion_is_that_of_an_ideal_fluid_to_first_order() {
         for depth in [None, Some(7.0)] {

@@ -7,8 +7,8 @@
 //! F(s) = int_-1^s f = s/2 + (s asin s + sqrt(1 - s^2) - (1 - s^2)^(3/2)/3)/pi
 //! ```
 //!
-//! f is 0 above and 1 below, with a continuous derivative; F is then 0 and s. Over a step from s0 to
-//! s1 the secant (F(s1) - F(s0))/(s1 - s0) takes the place of f, and the potential is exact.
+//! f is 0 above and 1 below, with a continuous derivative; F is then 0 and s. Over a step from s0
+//! to s1 the secant (F(s1) - F(s0))/(s1 - s0) takes the place of f, and the potential is exact.
 //!
 //! # Validity
 //!

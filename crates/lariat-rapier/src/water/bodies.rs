@@ -158,8 +158,8 @@ impl BodiesInWater {
     /// first.
     ///
     /// # Errors
-    /// [`Error::NoBody`]; [`Error::NotDynamic`]; [`Error::WaterValue`]; [`Error::NoVolume`] for a body
-    /// without a collider that encloses one, and without a volume of its own.
+    /// [`Error::NoBody`]; [`Error::NotDynamic`]; [`Error::WaterValue`]; [`Error::NoVolume`] for a
+    /// body without a collider that encloses one, and without a volume of its own.
     pub fn insert(&mut self, world: &mut PhysicsWorld, body: RigidBodyHandle, immersed: Immersed) -> Result<(), Error> {
         immersed.check(body)?;
         let own = world.bodies.get(body).ok_or(Error::NoBody(body))?;
@@ -236,8 +236,8 @@ impl BodiesInWater {
         }
     }
 
-    /// Returns the force of the water on a body as it is at a time in s, without a wave and with drag
-    /// as of a body at rest: what statics take. `None` for a body that is not in it.
+    /// Returns the force of the water on a body as it is at a time in s, without a wave and with
+    /// drag as of a body at rest: what statics take. `None` for a body that is not in it.
     pub fn at_rest(&self, world: &PhysicsWorld, body: RigidBodyHandle, time: f64) -> Option<WaterForce> {
         let member = self.members.iter().find(|m| m.body == body)?;
         let mut water = self.water.clone();

@@ -12,8 +12,8 @@
 //!
 //! # Validity
 //!
-//! Exact at a terminal velocity, whatever the step; of second order elsewhere. Without f the velocity
-//! at the end has the sign of that at the beginning, and the work is never positive.
+//! Exact at a terminal velocity, whatever the step; of second order elsewhere. Without f the
+//! velocity at the end has the sign of that at the beginning, and the work is never positive.
 //!
 //! # References
 //!
@@ -58,8 +58,8 @@ pub fn mean_drag(
     -coefficient.component_mul(&mean) * speed
 }
 
-/// Returns (1 - exp(-z))/z and (z - 1 + exp(-z))/z^2: the mean of what decays, and of what grows from
-/// zero at rate 1.
+/// Returns (1 - exp(-z))/z and (z - 1 + exp(-z))/z^2: the mean of what decays, and of what grows
+/// from zero at rate 1.
 fn means(z: f64) -> [f64; 2] {
     if z < SERIES {
         [1.0 - z * (0.5 - z * (1.0 / 6.0 - z / 24.0)), 0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z / 120.0))]

@@ -8,15 +8,15 @@
 //! V_s = sum (a - P) . ((b - P) x (c - P))/6        V_s x_s = sum of the volumes times (a + b + c + P)/4
 //! ```
 //!
-//! over the parts (a, b, c) of the triangles below the plane: the cut itself adds nothing, since P is
-//! in it. A ball of radius R whose centre is h below: V_s = pi (R + h)^2 (2R - h)/3, its centroid
-//! 3 (R - h)^2/(4 (2R - h)) below its centre.
+//! over the parts (a, b, c) of the triangles below the plane: the cut itself adds nothing, since P
+//! is in it. A ball of radius R whose centre is h below: V_s = pi (R + h)^2 (2R - h)/3, its
+//! centroid 3 (R - h)^2/(4 (2R - h)) below its centre.
 //!
 //! # Validity
 //!
-//! Exact for balls, boxes, convex and closed meshes at every attitude. Cylinders, cones and capsules
-//! are prisms and lathed bodies with 48 sides and the true volume; the rounding of an edge is left
-//! out. Colliders that overlap count twice; sensors count nothing.
+//! Exact for balls, boxes, convex and closed meshes at every attitude. Cylinders, cones and
+//! capsules are prisms and lathed bodies with 48 sides and the true volume; the rounding of an edge
+//! is left out. Colliders that overlap count twice; sensors count nothing.
 //!
 //! # References
 //!
@@ -113,8 +113,8 @@ impl Hull {
         self.radius
     }
 
-    /// Returns what is below a plane: `normal` its unit normal, upwards, in the axes of the body, and
-    /// `depth` how far the centroid is below it in m.
+    /// Returns what is below a plane: `normal` its unit normal, upwards, in the axes of the body,
+    /// and `depth` how far the centroid is below it in m.
     pub fn below(&self, normal: &Vector3<f64>, depth: f64) -> Wet {
         if depth >= self.radius {
             return Wet { volume: self.volume, centre: self.centre };
@@ -265,7 +265,8 @@ fn of_points<P>(points: impl Fn(Vec<P>) -> Vec<Vector3<f64>>, (list, triangles):
     (points(list), triangles)
 }
 
-/// Returns the area of a regular polygon with a circle of radius 1 about it, over that of the circle.
+/// Returns the area of a regular polygon with a circle of radius 1 about it, over that of the
+/// circle.
 fn polygon_share() -> f64 {
     libm::sin(TAU / f64::from(SIDES)) * f64::from(SIDES) / TAU
 }
@@ -328,7 +329,8 @@ mod tests {
         Hull::of_shapes([(&**shape, Vector3::new(0.3, -0.1, 0.2), turn)]).unwrap()
     }
 
-    /// *Source.* The volumes of the shapes; half of a body that is symmetric about its centre is below it.
+    /// *Source.* The volumes of the shapes; half of a body that is symmetric about its centre is
+    /// below it.
     #[test]
     fn shapes_have_their_volume_and_half_of_it_below_their_centre() {
         let volumes = [
@@ -350,8 +352,9 @@ mod tests {
         assert!(Hull::of_shapes([(&*half_space, Vector3::zeros(), UnitQuaternion::identity())]).is_none());
     }
 
-    /// *Source.* The derivative of the volume by the depth is the area of the cut, and its moment that of the area: by
-    /// sums of the volumes themselves, V(d) = sum of slices; the closed forms of the ball; an upright box.
+    /// *Source.* The derivative of the volume by the depth is the area of the cut, and its moment
+    /// that of the area: by sums of the volumes themselves, V(d) = sum of slices; the closed forms
+    /// of the ball; an upright box.
     #[test]
     fn what_is_below_a_plane_is_exact_for_a_box_and_a_ball() {
         let upright =

@@ -33,20 +33,20 @@
 //! ```
 //!
 //! V is the volume of the body, V_s that part of it which is below the [surface](Surface), V_r what
-//! it displaces when it floats; u and u' velocity and acceleration of the water, current and wave, in
-//! the middle of V_s; W the angular velocity. Buoyancy and the pressure of the wave (Froude and
-//! Krylov) act at the centroid of V_s, drag at that of V. a has no weight, and is part of the mass of
-//! the body in Rapier.
+//! it displaces when it floats; u and u' velocity and acceleration of the water, current and wave,
+//! in the middle of V_s; W the angular velocity. Buoyancy and the pressure of the wave (Froude and
+//! Krylov) act at the centroid of V_s, drag at that of V. a has no weight, and is part of the mass
+//! of the body in Rapier.
 //!
-//! *Over a host step* all of it is one constant force and moment: the mean buoyancy over the rise r of
-//! the step at the attitude in its middle, and the mean drag of [`drag`],
+//! *Over a host step* all of it is one constant force and moment: the mean buoyancy over the rise r
+//! of the step at the attitude in its middle, and the mean drag of [`drag`],
 //!
 //! ```text
 //! r = h v + h^2/2m (f + rho g V^)        V^ = (V_s d(0) - V_s d(r))/r        d: depth of the centroid of V_s
 //! ```
 //!
-//! V_s d is the energy of the displaced water over rho g, so an undamped float that heaves keeps its
-//! energy, whatever the step. Drag does not reverse a velocity.
+//! V_s d is the energy of the displaced water over rho g, so an undamped float that heaves keeps
+//! its energy, whatever the step. Drag does not reverse a velocity.
 //!
 //! # Validity
 //!
@@ -56,8 +56,8 @@
 //!   axis would make Rapier's mass a matrix, which it has not.
 //! - The added mass of a body that leaves the water stays in its mass. No slamming.
 //! - No lift, and no moment of drag but that about the centroid.
-//! - The volume is that of the [colliders](hull), exact for balls, boxes and meshes at every attitude;
-//!   cylinders, cones and capsules are prisms of the same volume.
+//! - The volume is that of the [colliders](hull), exact for balls, boxes and meshes at every
+//!   attitude; cylinders, cones and capsules are prisms of the same volume.
 //! - What cables, contacts and joints do to a body is not known before the step: drag expects of it
 //!   what it did in the last two. The error of a step is of second order where that is smooth.
 //!
@@ -68,8 +68,8 @@
 //!
 //! # Alternatives considered
 //!
-//! Forces at the beginning of the step: a float with a period of 2 s gains 4 % of its amplitude in a
-//! second, at 1/60 s.
+//! Forces at the beginning of the step: a float with a period of 2 s gains 4 % of its amplitude in
+//! a second, at 1/60 s.
 
 pub mod bodies;
 pub mod drag;

@@ -7,15 +7,16 @@
 //! ```
 //!
 //! s is the wet share of the [section](crate::water::wet), a circle of the area A_d, g gravity as a
-//! vector: added to the weight of the wholly immersed cable, the first term makes that in air. It is
-//! integrated at three Gauss points. Over a step of the discrete gradient 1 - s is its mean over the
-//! rise of the point, on the surface at the middle of the step: in water at rest the work of this
-//! force is then the change of its potential, at any step. u' is that of the wave at the middle.
+//! vector: added to the weight of the wholly immersed cable, the first term makes that in air. It
+//! is integrated at three Gauss points. Over a step of the discrete gradient 1 - s is its mean over
+//! the rise of the point, on the surface at the middle of the step: in water at rest the work of
+//! this force is then the change of its potential, at any step. u' is that of the wave at the
+//! middle.
 //!
 //! # Validity
 //!
-//! Elements that are short beside the piece of cable that goes through the surface: three points see
-//! no more of it. Below the surface the first term is zero, to the bit. Statics are in water
+//! Elements that are short beside the piece of cable that goes through the surface: three points
+//! see no more of it. Below the surface the first term is zero, to the bit. Statics are in water
 //! without a wave, and follow the motion to rest, for the cable's energy does not know this
 //! potential; the work of it counts as that of the effect.
 //!

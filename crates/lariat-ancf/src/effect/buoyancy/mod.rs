@@ -13,12 +13,11 @@
 //! # Validity
 //!
 //! A closed cable; without a free surface fully immersed in a fluid at rest or in slow change: the
-//! term (1 + C_a) rho_f A_d u' of an accelerated fluid is that of a [wave](crate::water::wave) alone.
-//! A constant force per length is exact for a cable
-//! whose ends are closed; the tension that is read is then the *effective* tension (that of the
-//! wall plus the fluid's pressure times the area). Added mass acts in all directions alike: the
-//! true one acts across the cable only, so waves along it are slower by sqrt(1 + C_a rho_f
-//! A_d/rhoA).
+//! term (1 + C_a) rho_f A_d u' of an accelerated fluid is that of a [wave](crate::water::wave)
+//! alone. A constant force per length is exact for a cable whose ends are closed; the tension that
+//! is read is then the *effective* tension (that of the wall plus the fluid's pressure times the
+//! area). Added mass acts in all directions alike: the true one acts across the cable only, so
+//! waves along it are slower by sqrt(1 + C_a rho_f A_d/rhoA).
 //!
 //! # References
 //!
