@@ -370,6 +370,10 @@ pub(crate) mod water {
     /// middle. Derived: the error of either is then about 1e-11.
     pub(crate) const SMALLEST_RISE: f64 = 1e-5;
 
+    /// Angle in rad of central differences of the righting moment. Derived: near the cube root of
+    /// the rounding of `f64`.
+    pub(crate) const SMALL_ANGLE: f64 = 1e-5;
+
     /// l h below which its means are series. Derived: the next term, z^4/120, is then below the
     /// rounding of `f64`.
     pub(crate) const SERIES: f64 = 3e-4;

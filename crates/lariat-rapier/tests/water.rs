@@ -247,6 +247,36 @@ fn light_bodies_in_long_steps_make_no_energy() {
     }
 }
 
+/// A foam board that is let go askew, at steps far beyond its periods of heave and roll (0.1 s): it comes to rest flat, and is never
+/// higher nor faster than its energy allows.
+///
+/// *Source.* The energy of the displaced water, at most rho g V times its half length.
+#[test]
+fn a_light_board_comes_to_rest_at_long_steps() {
+    for (dt, drag) in [(0.1, true), (0.1, false), (1.0 / 60.0, true)] {
+        let start = RigidBodyBuilder::dynamic().rotation(Vector::new(0.3, 0.0, 0.5));
+        let shape = ColliderBuilder::cuboid(0.5, 0.02, 0.3).density(40.0);
+        let area = if drag { [0.02, 0.6, 0.04] } else { [0.0; 3] };
+        let mut immersed = Immersed::with_drag_area(area);
+        if drag {
+            immersed.spin_drag = Vector3::new(0.05, 0.0, 0.05);
+        }
+        let mut tank = Tank::new(start, shape, sea(), immersed, dt);
+        let mass = f64::from(tank.body().mass());
+        let most = RHO * G * 0.5 * 0.024;
+        for _ in 0..(60.0 / dt) as usize {
+            tank.step();
+            let body = tank.body();
+            let energy = 0.5 * mass * vector(body.linvel()).norm_squared() + mass * G * tank.y();
+            assert!(energy < most && tank.y().abs() < 10.0, "{dt} {drag} {energy} {most} {}", tank.y());
+        }
+        let body = tank.body();
+        let tilt = (body.rotation() * Vector::Y).y;
+        println!("{dt} {drag}: tilt {tilt} y {} spin {}", tank.y(), vector(body.angvel()).norm());
+        assert!(!drag || (tilt.abs() > 0.999 && (tank.y() - (0.02 - 0.0016)).abs() < 3e-3), "{dt} {tilt} {}", tank.y());
+    }
+}
+
 /// *Source.* Balance of moments at rest: the cable points along the sum of drag and weight in water, whatever the step.
 #[test]
 fn a_weight_on_a_cable_hangs_askew_in_a_current() {

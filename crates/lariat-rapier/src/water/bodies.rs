@@ -4,9 +4,9 @@ use super::drag::mean_drag;
 use super::hull::{Hull, Wet};
 use crate::convert::{rotation, symmetric_inertia, to_vector, vector};
 use crate::error::Error;
-use crate::scales::water::{HEIGHT_ROUNDS, SAME_DRAG, SMALLEST_RISE, STEP_ROUNDS};
+use crate::scales::water::{HEIGHT_ROUNDS, SAME_DRAG, SMALL_ANGLE, SMALLEST_RISE, STEP_ROUNDS};
 use crate::set::CableSet;
-use ::nalgebra::{UnitQuaternion, Vector3};
+use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use lariat_ancf::{Sea, Water};
 use rapier::dynamics::{MassProperties, RigidBody, RigidBodyHandle};
 use rapier::math::{Real, Vector};
@@ -100,8 +100,9 @@ pub struct WaterForce {
     pub drag_point: Vector3<f64>,
     /// Force of the wave on the added mass, in N, through the centre of mass.
     pub inertia: Vector3<f64>,
-    /// Moment of the drag of rotation in N m, world axes.
-    pub spin_drag: Vector3<f64>,
+    /// Moment in N m beside that of the forces, world axes: drag of rotation, and what makes the
+    /// righting moment that of the middle of the step.
+    pub moment: Vector3<f64>,
     /// Share of the volume that is wet.
     pub wet: f64,
 }
@@ -230,9 +231,9 @@ impl BodiesInWater {
             let sum = force.pressure + force.drag + force.inertia - gravity * (scale * member.added);
             let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
                 + (turned * (force.drag_point - centre)).cross(&force.drag)
-                + force.spin_drag;
-            body.add_force(to_vector(&sum), true);
-            body.add_torque(to_vector(&moment), true);
+                + force.moment;
+            body.add_force(to_vector(&sum), moves);
+            body.add_torque(to_vector(&moment), moves);
         }
     }
 
@@ -347,7 +348,9 @@ impl Member {
             }
             let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });
             let torque = (turned * (wet.centre - vector(body.local_center_of_mass()))).cross(&pressure);
-            let torque = to_body(&(torque + arm.cross(&drag) + vector(body.user_torque())));
+            let inertia_matrix = symmetric_inertia(body);
+            let righting = self.righting(input, &(middle - arm), &turned, &inertia_matrix, body);
+            let torque = to_body(&(torque + righting + arm.cross(&drag) + vector(body.user_torque())));
             let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
             let known = known + pressure + inertia + drag;
             self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
@@ -357,11 +360,44 @@ impl Member {
                 drag,
                 drag_point: self.hull.centre(),
                 inertia,
-                spin_drag: turned * spin_drag,
+                moment: turned * spin_drag + righting,
                 wet: wet.volume / self.hull.volume(),
             };
             return (force, turned);
         }
+    }
+
+    /// Returns by how much the mean righting moment over a step, that at the attitude in its middle
+    /// to first order, exceeds that at the attitude of a uniform rotation: x - t with (I + h^2/4 K)
+    /// I^-1 x = t, K the derivative of the moment t by the rotation.
+    fn righting(
+        &self,
+        input: &Input<'_>,
+        mass_centre: &Vector3<f64>,
+        turned: &UnitQuaternion<f64>,
+        inertia: &Matrix3<f64>,
+        body: &RigidBody,
+    ) -> Vector3<f64> {
+        let Input { h, water, gravity, .. } = *input;
+        if h <= 0.0 || *inertia == Matrix3::zeros() {
+            return Vector3::zeros();
+        }
+        let local = vector(body.local_center_of_mass());
+        let moment = |rotation: UnitQuaternion<f64>| {
+            let wet = self.wet(input, &(mass_centre + rotation * (self.hull.centre() - local)), &rotation);
+            (rotation * (wet.centre - local)).cross(&(gravity * (-water.density * wet.volume)))
+        };
+        let column = |axis: usize| {
+            let by = |angle: f64| moment(UnitQuaternion::from_scaled_axis(Vector3::ith(axis, angle)) * turned);
+            (by(-SMALL_ANGLE) - by(SMALL_ANGLE)) / (2.0 * SMALL_ANGLE)
+        };
+        let stiffness = Matrix3::from_columns(&[column(0), column(1), column(2)]);
+        let rotation = turned.to_rotation_matrix();
+        let inertia = rotation * inertia * rotation.transpose();
+        let sum = inertia + (stiffness + stiffness.transpose()) * (0.125 * h * h);
+        let uniform = moment(*turned);
+        // a float that turns over within the step has no stiffness that counts
+        sum.cholesky().map_or(Vector3::zeros(), |sum| inertia * sum.solve(&uniform) - uniform)
     }
 
     /// Returns what cables, contacts and joints are expected to do, in N: what they did in the last

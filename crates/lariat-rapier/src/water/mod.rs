@@ -46,7 +46,8 @@
 //! ```
 //!
 //! V_s d is the energy of the displaced water over rho g, so an undamped float that heaves keeps
-//! its energy, whatever the step. Drag does not reverse a velocity.
+//! its energy, whatever the step. The righting moment is that of the attitude in the middle of the
+//! step, to first order, which is stable for any float. Drag does not reverse a velocity.
 //!
 //! # Validity
 //!

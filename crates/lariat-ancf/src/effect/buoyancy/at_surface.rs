@@ -29,7 +29,6 @@
 //! All of buoyancy at Gauss points, with none in the weight: rounding in every step of cables that
 //! are deep below.
 
-use super::Buoyancy;
 use crate::dual::Dual;
 use crate::effect::Target;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
@@ -81,16 +80,18 @@ impl Point {
 }
 
 impl SurfaceTable {
-    pub fn new(buoyancy: &Buoyancy, surface: &Surface, cable: &Target<'_>) -> Self {
+    /// Makes the table for a density of the water in kg/m^3, a coefficient of added mass, and the
+    /// displaced area in m^2 if it is not that of the sections.
+    pub fn new(surface: &Surface, (density, added_mass, area): (f64, f64, Option<f64>), cable: &Target<'_>) -> Self {
         let elements = cable.elements.iter().map(|element| {
-            let area = buoyancy.area.or(element.section.outer_area).unwrap_or(0.0);
-            [element.length, buoyancy.fluid_density * area, (area / PI).sqrt()]
+            let area = area.or(element.section.outer_area).unwrap_or(0.0);
+            [element.length, density * area, (area / PI).sqrt()]
         });
         SurfaceTable {
             surface: *surface,
             sea: surface.sea(),
             gravity: cable.gravity,
-            inertia: 1.0 + buoyancy.added_mass,
+            inertia: 1.0 + added_mass,
             points: gauss_legendre(POINTS),
             elements: elements.collect(),
         }

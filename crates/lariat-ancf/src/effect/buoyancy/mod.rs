@@ -105,7 +105,9 @@ impl Acts for Buoyancy {
     type AtPoints = SurfaceTable;
 
     fn at_points(&self, cable: &Target<'_>) -> Option<SurfaceTable> {
-        self.surface.as_ref().map(|surface| SurfaceTable::new(self, surface, cable))
+        self.surface
+            .as_ref()
+            .map(|surface| SurfaceTable::new(surface, (self.fluid_density, self.added_mass, self.area), cable))
     }
 
     fn added_mass(&self, section: &Section) -> f64 {
