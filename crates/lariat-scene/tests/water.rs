@@ -40,11 +40,14 @@ impl Tow {
             *self;
         let level = self.level.map_or(String::new(), |level| format!("level = {level}\n"));
         let area = PI / 4.0 * diameter * diameter;
+        // drawn near where it will be
+        let place = self.solve().0;
+        let (x, y) = (0.95 * place.x, 0.95 * place.y);
         format!(
             "duration = 4.0\ninitial = \"equilibrium\"\n[water]\ndensity = {RHO}\n{level}current = [{stream}, 0.0, 0.0]\n\
-             [[body]]\nname = \"fish\"\nshape = {{ ball = {fish_radius} }}\nmass = {fish_mass}\nposition = [20.0, -30.0, 0.0]\n\
+             [[body]]\nname = \"fish\"\nshape = {{ ball = {fish_radius} }}\nmass = {fish_mass}\nposition = [{x}, {y}, 0.0]\n\
              [body.water]\ndrag_area = {fish_area}\nadded_mass = 0.5\n\
-             [[cable]]\nname = \"wire\"\npoints = [[0.0, 2.0, 0.0], [20.0, -30.0, 0.0]]\nlength = {length}\nelements = 60\n\
+             [[cable]]\nname = \"wire\"\npoints = [[0.0, 2.0, 0.0], [{x}, {y}, 0.0]]\nlength = {length}\nelements = 60\n\
              axial_stiffness = {ea:e}\nbending_stiffness = 0.0\nmass_per_length = {mass}\naxial_law = \"hooke\"\n\
              [cable.damping]\naxial = 0.01\n\
              [cable.drag]\nnormal = {normal}\ntangential = {tangential}\ndiameter = {diameter}\n\
@@ -142,12 +145,12 @@ fn a_towed_fish_is_where_the_equation_of_its_cable_puts_it() {
 }
 
 fn buoy(period: f64, amplitude: f64, rest: &str) -> String {
-    let (ea, pull): (f64, f64) = (2e4, (1000.0 * PI * 0.0625 * 1.4 - 200.0) * G);
+    let (ea, pull): (f64, f64) = (2e4, (1000.0 * PI * 0.0625 * 1.4 - 150.0) * G);
     let length = 10.0 / (1.0 + pull / ea);
     format!(
         "duration = 60.0\n[water]\ndensity = 1000.0\nlevel = 0.0\n[water.wave]\namplitude = {amplitude}\nperiod = {period}\n\
          direction = [1.0, 0.0, 0.0]\n\
-         [[body]]\nname = \"buoy\"\nshape = {{ cylinder = [1.0, 0.25] }}\nmass = 200.0\nposition = [0.0, -0.4, 0.0]\n\
+         [[body]]\nname = \"buoy\"\nshape = {{ cylinder = [1.0, 0.25] }}\nmass = 150.0\nposition = [0.0, -0.4, 0.0]\n\
          [body.water]\nadded_mass = 0.3\n{rest}\
          [[cable]]\nname = \"mooring\"\npoints = [[0.0, -11.4, 0.0], [0.0, -1.4, 0.0]]\nlength = {length}\nelements = 4\n\
          axial_stiffness = {ea:e}\nbending_stiffness = 0.0\nmass_per_length = 0.001\naxial_law = \"hooke\"\n\
@@ -165,8 +168,8 @@ fn a_moored_buoy_in_regular_waves_heaves_by_its_linear_response() {
     for period in [4.0, 7.0] {
         let (omega, amplitude) = (TAU / period, 0.02);
         let (k, draught, spring) = (omega * omega / G, 1.4, 1000.0 * G * PI * 0.0625);
-        let (ea, pull): (f64, f64) = (2e4, (1000.0 * PI * 0.0625 * 1.4 - 200.0) * G);
-        let (mass, added, line) = (200.0, 60.0, ea * (1.0 + pull / ea) / 10.0);
+        let (ea, pull): (f64, f64) = (2e4, (1000.0 * PI * 0.0625 * 1.4 - 150.0) * G);
+        let (mass, added, line) = (150.0, 45.0, ea * (1.0 + pull / ea) / 10.0);
         let expected = (spring * (-k * draught).exp() - added * omega * omega * (-0.5 * k * draught).exp())
             / (spring + line - (mass + added) * omega * omega);
         let natural = ((spring + line) / (mass + added)).sqrt();
@@ -241,7 +244,7 @@ fn mistakes_are_told_where_they_are() {
         ("drag_area = 0.3", "volume = 0.0", "volume"),
         ("added_mass = 0.3", "added_mass = [0.3, 0.1, 0.3]", "added_mass"),
         ("shape = { cylinder = [1.0, 0.25] }", "shape = \"none\"", "volume"),
-        ("mass = 200.0", "kind = \"fixed\"", "fixed"),
+        ("mass = 150.0", "kind = \"fixed\"", "fixed"),
         ("duration = 60.0", "duration = 60.0\ngravity = [0.0, 0.0, 0.0]", "gravity"),
         ("[cable.damping]", "[cable.drag]\nflow = [1.0, 0.0, 0.0]\ndiameter = 0.01\n[cable.damping]", "flow"),
     ] {
