@@ -339,11 +339,17 @@ impl Member {
                 -coefficient.component_mul(&relative) * relative.norm()
             };
             let change = turned * mean - drag;
-            drag += change;
             rounds += 1;
             // buoyancy depends on how far drag lets the body go
             let settled = sea.is_none() || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm());
-            if !settled && rounds < STEP_ROUNDS && h > 0.0 {
+            if settled || h <= 0.0 {
+                drag += change;
+            } else if rounds < STEP_ROUNDS {
+                drag += change * if rounds < STEP_ROUNDS / 4 { 1.0 } else { 0.5 };
+                continue;
+            } else if rounds == STEP_ROUNDS {
+                // without drag the step makes no energy
+                drag = Vector3::zeros();
                 continue;
             }
             let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });

@@ -71,8 +71,8 @@ pub struct Links<'a> {
 
 /// Moves cables and bodies, held together by `links`, to static equilibrium under gravity, the full
 /// point loads and effects of the cables, and the forces and torques of the bodies; velocities
-/// become zero. Flow is that of the cables' time, without waves. Over sheaves runs what their pulls ask for, so
-/// that the cables may have other nodes than before.
+/// become zero. Flow is that of the cables' time, without waves. Over sheaves runs what their pulls
+/// ask for, so that the cables may have other nodes than before.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] if none is found, and as [`Island::step`](super::Island::step) for pins
