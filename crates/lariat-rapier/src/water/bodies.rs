@@ -1,6 +1,6 @@
 //! The bodies of a world that are in water, and the forces on them in a host step.
 
-use super::drag::mean_drag;
+use super::drag::{mean_drag, midpoint};
 use super::hull::{Hull, Wet};
 use crate::convert::{rotation, symmetric_inertia, to_vector, vector};
 use crate::error::Error;
@@ -332,24 +332,30 @@ impl Member {
             let relative = to_body(&(velocity + spin.cross(&arm) - water.current(time, &middle) - wave));
             let factor = 0.5 * rho * share;
             let coefficient = self.immersed.drag_area * factor;
-            let mean = if h > 0.0 {
-                let forces = to_body(&(others + pressure + inertia - acceleration * mass));
-                mean_drag(&Vector3::repeat(felt), &coefficient, &relative, &forces, h)
-            } else {
+            let forces = to_body(&(others + pressure + inertia - acceleration * mass));
+            let masses = Vector3::repeat(felt);
+            let mean = if h <= 0.0 {
                 -coefficient.component_mul(&relative) * relative.norm()
+            } else if rounds < STEP_ROUNDS / 4 {
+                mean_drag(&masses, &coefficient, &relative, &forces, h)
+            } else {
+                midpoint(&masses, &coefficient, &(relative + forces * (0.5 * h / felt)), h)
             };
             let change = turned * mean - drag;
-            rounds += 1;
             // buoyancy depends on how far drag lets the body go
             let settled = sea.is_none() || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm());
-            if settled || h <= 0.0 {
+            if rounds > STEP_ROUNDS {
+                // buoyancy is now that with this drag; one that would drive the body is none
+                let actual = relative + (forces + to_body(&drag)) * (0.5 * h / felt);
+                if to_body(&drag).dot(&actual) > 0.0 {
+                    drag = Vector3::zeros();
+                    continue;
+                }
+            } else if settled || h <= 0.0 {
                 drag += change;
-            } else if rounds < STEP_ROUNDS {
-                drag += change * if rounds < STEP_ROUNDS / 4 { 1.0 } else { 0.5 };
-                continue;
-            } else if rounds == STEP_ROUNDS {
-                // without drag the step makes no energy
-                drag = Vector3::zeros();
+            } else {
+                rounds += 1;
+                drag += change * if rounds < STEP_ROUNDS / 2 { 1.0 } else { 0.5 };
                 continue;
             }
             let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });

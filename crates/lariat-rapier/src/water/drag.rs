@@ -63,8 +63,8 @@ pub fn mean_drag(
     if drag.dot(&actual) <= 0.0 { drag } else { midpoint(mass, coefficient, &(velocity + 0.5 * gained), h) }
 }
 
-/// Returns the drag at the mean velocity of a step: `free` is that without drag.
-fn midpoint(mass: &Vector3<f64>, coefficient: &Vector3<f64>, free: &Vector3<f64>, h: f64) -> Vector3<f64> {
+/// Returns the drag (N, or N m) at the mean velocity of a step: `free` is that without drag.
+pub fn midpoint(mass: &Vector3<f64>, coefficient: &Vector3<f64>, free: &Vector3<f64>, h: f64) -> Vector3<f64> {
     let (mut speed, mut mean) = (free.norm(), *free);
     for _ in 0..DRAG_ROUNDS {
         mean = Vector3::from_fn(|i, _| free[i] / (1.0 + 0.5 * coefficient[i] * speed * h / mass[i]));
