@@ -56,6 +56,8 @@
 //!   makes; added mass does not depend on frequency, and is alike in all directions: one for each
 //!   axis would make Rapier's mass a matrix, which it has not.
 //! - The added mass of a body that leaves the water stays in its mass. No slamming.
+//! - Steps of less than half a period of heave and roll. Beyond that the motion of a light float is
+//!   bounded by its energy, but what does not damp within a step goes on.
 //! - No lift, and no moment of drag but that about the centroid.
 //! - The volume is that of the [colliders](hull), exact for balls, boxes and meshes at every
 //!   attitude; cylinders, cones and capsules are prisms of the same volume.
