@@ -78,6 +78,7 @@ mod system;
 mod term;
 pub mod warning;
 mod watch;
+pub mod water;
 
 pub use at::At;
 pub use cable::TorsionReading;
@@ -91,7 +92,7 @@ pub use diagnostics::Diagnostics;
 pub use effect::{
     AxialLaw, Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, EndSpin, Flow,
     ForceDensity, ForceDerivatives, GravityScale, LineLoad, LineLoads, Potential, RestPiece, RestShape, RopeKind,
-    Torsion,
+    Torsion, Water,
 };
 pub use element::{axial, bending};
 pub use error::{EquilibriumFailure, Error, PinProblem, Requirement, StepFailure};
@@ -113,3 +114,4 @@ pub use support::{Motion, SlopeSupport, Support};
 pub use system::jacobian::Jacobians;
 pub use term::ReasonCounts;
 pub use warning::{Level, Warning, Watch};
+pub use water::{Sea, SeaPoint, Surface, Wave};

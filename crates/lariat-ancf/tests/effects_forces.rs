@@ -25,7 +25,7 @@ fn all() -> Effects {
     Effects {
         damping: Some(DAMPING),
         drag: Some(drag(Vector3::new(0.5, 0.2, -0.1))),
-        buoyancy: Some(Buoyancy { fluid_density: 1000.0, added_mass: 1.0, area: Some(3e-4) }),
+        buoyancy: Some(Buoyancy { area: Some(3e-4), ..Buoyancy::new(1000.0, 1.0) }),
         rest_shape: Some(rest_shape()),
         line_loads: Some(LineLoad { from: 0.2, to: 0.7, force: Vector3::new(0.1, 0.3, -0.2) }.into()),
         gravity_scale: Some(GravityScale(0.8)),

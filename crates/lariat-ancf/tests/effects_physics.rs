@@ -335,7 +335,7 @@ fn a_neutrally_buoyant_cable_stays_where_it_is() {
 /// *Source.* Blevins 1979, section 14 (beams in still fluid); 3.5160 for unit EI, L.
 #[test]
 fn added_mass_lowers_the_eigenfrequency_as_the_mass_ratio_says() {
-    let buoyancy = Buoyancy { fluid_density: 1000.0, added_mass: 0.8, area: Some(1.5e-3) };
+    let buoyancy = Buoyancy { area: Some(1.5e-3), ..Buoyancy::new(1000.0, 0.8) };
     let mut cable = cantilever(10).effects(only(|e| e.buoyancy = Some(buoyancy))).build().unwrap();
     let omega = first_mode(&mut cable).0;
     let expected = 3.5160 / (1.0f64 + 0.8 * 1.5).sqrt();

@@ -25,7 +25,7 @@ fn all() -> Effects {
     Effects {
         damping: Some(Damping { axial: 0.02, bending: 0.03 }),
         drag: Some(Drag { diameter: Some(DIAMETER), ..Drag::new(WATER, 1.2, 0.05, sheared()) }),
-        buoyancy: Some(Buoyancy { fluid_density: WATER, added_mass: 1.0, area: Some(3e-4) }),
+        buoyancy: Some(Buoyancy { area: Some(3e-4), ..Buoyancy::new(WATER, 1.0) }),
         rest_shape: Some(RestShape { pieces: vec![piece(0.0, 0.97, 0.8), piece(0.4, 1.02, 1.5)] }),
         line_loads: Some(LineLoad { from: 0.2, to: 0.7, force: Vector3::new(0.1, 0.3, -0.2) }.into()),
         gravity_scale: Some(GravityScale(0.8)),

@@ -74,6 +74,15 @@ pub(crate) fn symmetric(s: &AngularInertia) -> na::Matrix3<f64> {
     na::Matrix3::new(s.m11, s.m12, s.m13, s.m12, s.m22, s.m23, s.m13, s.m23, s.m33).map(f64::from)
 }
 
+/// Returns the inertia of a body about its centre of mass in kg m^2, in its axes; zero if it does
+/// not rotate.
+pub(crate) fn symmetric_inertia(body: &rapier::dynamics::RigidBody) -> na::Matrix3<f64> {
+    let local = &body.mass_properties().local_mprops;
+    let inverse = local.inv_principal_inertia;
+    let turns = inverse.x > 0.0 && inverse.y > 0.0 && inverse.z > 0.0;
+    if turns { matrix(&local.reconstruct_inertia_matrix()) } else { na::Matrix3::zeros() }
+}
+
 /// Makes a pose of Rapier's from a translation in m and a rotation.
 pub fn to_pose(translation: &na::Vector3<f64>, rotation: &na::UnitQuaternion<f64>) -> Pose {
     Pose::from_parts(to_vector(translation), to_rotation(rotation))

@@ -49,6 +49,22 @@ pub enum Error {
     /// The handle of a body that is not in the world.
     #[error("no body {0:?} in this world")]
     NoBody(RigidBodyHandle),
+    /// A body that is to be in water and is not dynamic.
+    #[error("body {0:?} is not dynamic: water does not move it")]
+    NotDynamic(RigidBodyHandle),
+    /// A body in water without a collider that encloses a volume.
+    #[error("body {0:?} has no collider that encloses a volume: give the volume that it displaces")]
+    NoVolume(RigidBodyHandle),
+    /// A number of a body in water that is out of range.
+    #[error("body {body:?} in water: {what} of {value}; expected a number of at least 0, and a volume above it")]
+    WaterValue {
+        /// The body.
+        body: RigidBodyHandle,
+        /// What it is.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
     /// A world that is not the one of the attachments: no body is where it belongs, or handles name
     /// other bodies. Nothing has changed.
     #[error("this world is not the one of the set's attachments: step that one, or detach them first")]

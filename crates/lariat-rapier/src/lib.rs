@@ -36,6 +36,7 @@
 //! | read forces, gaps and work | [`Attachment`], [`AttachmentReading`], [`WorldEnergy`] |
 //! | hear where meshes, steps, laws and sizes are not good enough | [`Event::Warning`], [`Event::GapOpened`], [`CableSet::warnings`] |
 //! | tie cables to each other | [`CableSet::join`], [`Junction`] |
+//! | let bodies float, sink, and ride on waves | [`water`] |
 //! | step Rapier yourself | [`CableSet::begin`], [`HostStep`] |
 //! | convert numbers | [`convert`] |
 //!
@@ -127,6 +128,7 @@ mod scales;
 mod set;
 mod statics;
 mod step;
+pub mod water;
 
 pub use body::rigid_body;
 pub use body::unsettled::Unsettled;

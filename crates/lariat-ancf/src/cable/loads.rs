@@ -14,6 +14,7 @@ impl Cable {
         require_finite("gravity (m/s^2)", &gravity).map_err(|e| e.of_cable(self.name()))?;
         self.model.gravity = gravity;
         self.system.loads.weigh(&self.model);
+        self.system.forces.weigh_water(&self.model);
         self.system.feeds.forget_lengths();
         self.sync_reel();
         self.revise();

@@ -3,10 +3,11 @@
 //! # Equation
 //!
 //! ```text
-//! u(r, t) = U profile(up . r) history(t) + samples at the nodes, linear between them
+//! u(r, t) = U profile(up . r) history(t) + samples at the nodes, linear between them + wave(r, t)
 //! ```
 //!
-//! profile and history are piecewise linear, constant beyond their first and last row.
+//! profile and history are piecewise linear, constant beyond their first and last row. With a free
+//! surface, what is above it is dry, and its [wave](crate::water::wave) is added.
 //!
 //! # Validity
 //!
@@ -35,6 +36,7 @@ use crate::error::{Error, require, require_finite};
 use crate::point::Point;
 use crate::rows::{check_rows, interpolate, is_constant};
 use crate::scales::effect::ROWS;
+use crate::water::Surface;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -63,6 +65,9 @@ pub struct Flow {
     /// [`Cable::sample_flow`](crate::Cable::sample_flow).
     #[serde(default)]
     pub samples: Vec<Vector3<f64>>,
+    /// Free surface, with a wave or without. Default: none, the fluid is everywhere.
+    #[serde(default)]
+    pub surface: Option<Surface>,
 }
 
 impl Flow {
@@ -88,7 +93,14 @@ impl Flow {
         self
     }
 
-    /// Returns the velocity in m/s at a position and a time, without samples.
+    /// Returns the same flow below a free surface, with the velocity of its wave.
+    pub fn with_surface(mut self, surface: Surface) -> Self {
+        self.surface = Some(surface);
+        self
+    }
+
+    /// Returns the velocity in m/s at a position and a time, without samples and without that of a
+    /// wave.
     pub fn at(&self, time: f64, position: &Vector3<f64>) -> Vector3<f64> {
         let velocity = self.in_time(time);
         match &self.profile {
@@ -104,6 +116,9 @@ impl Flow {
 
     /// Returns whether it is the same from one time to another, in s.
     pub(crate) fn is_steady(&self, from: f64, to: f64) -> bool {
+        if self.surface.is_some_and(|surface| surface.wave.is_some()) {
+            return false;
+        }
         if self.history.is_empty() || self.velocity == Vector3::zeros() {
             return true;
         }
@@ -118,6 +133,7 @@ impl Flow {
             check_rows("a flow's profile", rows)?;
             require("rows of a flow's profile", rows.len() as f64, !rows.is_empty(), ">= 1")?;
         }
+        self.surface.map_or(Ok(()), |surface| surface.check())?;
         self.samples.iter().try_for_each(|sample| require_finite("sampled flow (m/s)", sample))?;
         check_rows("a flow's history", &self.history)
     }

@@ -10,13 +10,14 @@
 //! | file | effect | where it acts |
 //! |---|---|---|
 //! | [`gravity`] | factor on gravity | the weight, once |
-//! | [`buoyancy`] | buoyancy and added mass | the weight and the mass matrix, once |
+//! | [`buoyancy`] | buoyancy and added mass | the weight and the mass matrix, once; at a free surface Gauss points of the element |
 //! | [`line_load`] | force per length | a constant vector, once |
 //! | [`axial_law`] | force against strain other than the Green law | Gram numbers of the element |
 //! | [`rest_shape`] | stress-free stretch and curvature | Gram numbers of the element |
 //! | [`torsion`] | one torque between clamps that hold the spin | the change of the twist of each segment |
 //! | [`damping`] | Kelvin-Voigt damping | Gram numbers of the element |
 //! | [`contact`] | contact and friction with obstacles | material points of the centre line, in steps of the discrete gradient |
+//! | [`water`](mod@water) | a fluid with its motion and its free surface, for drag, buoyancy and bodies | |
 //! | [`drag`], [`flow`] | drag of a fluid or wind, steady, by tables in place and time, or sampled from a function of yours | Gauss points of the element |
 //!
 //! Bending stiffness is part of the [rule](crate::Rule).
@@ -53,6 +54,7 @@ pub mod rest_shape;
 pub mod rope_kind;
 pub(crate) mod tables;
 pub mod torsion;
+pub mod water;
 pub mod work;
 
 pub use axial_law::AxialLaw;
@@ -69,11 +71,13 @@ pub use potential::Potential;
 pub use rest_shape::{RestPiece, RestShape};
 pub use rope_kind::RopeKind;
 pub use torsion::{EndSpin, Torsion};
+pub use water::Water;
 
 use crate::error::{Error, Requirement};
 use crate::rule::{BendingRule, Rule};
 use crate::section::Element;
 use core::fmt::Debug;
+use nalgebra::Vector3;
 use serde::{Serialize, de::DeserializeOwned};
 
 /// An effect of the list of [`for_each_effect`](crate::for_each_effect): its parameters, and all
@@ -143,6 +147,8 @@ pub struct Target<'a> {
     pub rule: Rule,
     /// Elements.
     pub elements: &'a [Element],
+    /// Gravity in m/s^2, with the factor of the cable.
+    pub gravity: Vector3<f64>,
 }
 
 impl Target<'_> {

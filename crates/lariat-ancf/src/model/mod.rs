@@ -195,7 +195,8 @@ impl Model {
 
     /// The cable as effects see it.
     pub(crate) fn target(&self) -> Target<'_> {
-        Target { name: &self.name, rule: self.rule, elements: &self.elements }
+        let gravity = self.effects.gravity_factor() * self.gravity;
+        Target { name: &self.name, rule: self.rule, elements: &self.elements, gravity }
     }
 
     /// Damping with the least time of the axial strain, if the cable's own has less.

@@ -25,6 +25,7 @@ pub(crate) mod study;
 pub(crate) mod system;
 pub(crate) mod term;
 pub(crate) mod watch;
+pub(crate) mod water;
 
 /// Share by which two lengths or masses that are the same may differ. Derived: a sum over the most
 /// elements that a cable can have, 1e6, rounds to 1e-10 of it; no element is shorter than 1e-6 of

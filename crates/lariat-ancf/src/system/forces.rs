@@ -119,6 +119,13 @@ impl Forces {
         }
     }
 
+    /// Takes over gravity, which acts on water too.
+    pub fn weigh_water(&mut self, model: &Model) {
+        if self.at_points.buoyancy.is_some() {
+            self.at_points = model.effects.at_points(&model.target());
+        }
+    }
+
     /// The quantity of the last evaluation that was not finite and its node, if a function of the
     /// user's made it.
     pub fn not_finite(&self) -> Option<(&'static str, usize)> {

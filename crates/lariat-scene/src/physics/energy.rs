@@ -19,7 +19,7 @@ pub struct BodyTerms {
     pub kinetic: f64,
     /// Potential of gravity.
     pub gravity: f64,
-    /// Work of loads on it.
+    /// Work of loads and of water on it.
     pub loads: f64,
     /// Work of its cables on it.
     pub cables: f64,
@@ -38,21 +38,22 @@ pub struct Place {
 }
 
 impl Physics {
-    /// Returns the places of the bodies that the scene loads, with the loads of the coming step.
+    /// Returns the places of the bodies that the scene loads, or that are in water, with the forces of the coming step.
     pub(super) fn places(&self, scene: &Scene) -> Vec<(usize, Place)> {
         let mut places: Vec<(usize, Place)> = Vec::new();
-        for load in &scene.body_loads {
-            if places.iter().any(|(body, _)| *body == load.body) {
+        let in_water = scene.bodies.iter().enumerate().filter(|(_, body)| body.water.is_some()).map(|(index, _)| index);
+        for index in scene.body_loads.iter().map(|load| load.body).chain(in_water) {
+            if places.iter().any(|(body, _)| *body == index) {
                 continue;
             }
-            let body = &self.world.bodies[self.bodies[load.body]];
+            let body = &self.world.bodies[self.bodies[index]];
             let place = Place {
                 centre: vector(body.center_of_mass()),
                 rotation: rotation(*body.rotation()),
                 force: vector(body.user_force()),
                 moment: vector(body.user_torque()),
             };
-            places.push((load.body, place));
+            places.push((index, place));
         }
         places
     }

@@ -11,7 +11,7 @@ use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, SheaveHandle};
 
 /// The bodies and cables of a scene at its start, with what the scene calls them.
 ///
-/// A step of the scene is [`Script::set`] with the times at its ends, and then
+/// A step of the scene is [`Script::set`] with the cables and the times at its ends, and then
 /// [`CableSet::step`] on the bodies.
 ///
 /// ```
@@ -41,10 +41,10 @@ use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, SheaveHandle};
 /// body = "crate"
 /// anchor = [0.0, 0.1, 0.0]
 /// "#, &[], Purpose::Run)?;
-/// let Parts { mut world, mut cables, bodies, script, .. } = Parts::of(&scene)?;
+/// let Parts { mut world, mut cables, bodies, mut script, .. } = Parts::of(&scene)?;
 /// let mut time = 0.0;
 /// while time < scene.duration {
-///     script.set(&mut world, time, time + scene.dt);
+///     script.set(&mut world, &cables, time, time + scene.dt);
 ///     cables.step(&mut world).expect("steps");
 ///     time += scene.dt;
 /// }
@@ -66,7 +66,7 @@ pub struct Parts {
     pub attachments: Vec<(String, AttachmentHandle)>,
     /// Names of sheaves, in the order of the scene.
     pub sheaves: Vec<(String, SheaveHandle)>,
-    /// Paths of kinematic bodies, and loads on bodies.
+    /// Paths of kinematic bodies, loads on bodies, and water.
     pub script: Script,
     /// What the start of the scene tells, a line for each kind of warning.
     pub told: Vec<String>,

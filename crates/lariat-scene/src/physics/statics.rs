@@ -45,8 +45,8 @@ impl Physics {
             let (_, moment) = load.at(0.0, fully);
             self.world.bodies[self.bodies[load.body]].add_torque(to_vector(&moment), true);
         }
-        let found = self.cables.equilibrium_under(&mut self.world, &forces);
-        self.settled(scene, &found.map_err(|error| self.explain(scene, 0.0, error))?)
+        let found = self.equilibrium_in_water(scene, forces)?;
+        self.settled(scene, &found)
     }
 
     /// Moves a cable that is not yet attached to equilibrium, with all bodies held where they are

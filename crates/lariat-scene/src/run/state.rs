@@ -123,6 +123,7 @@ fn parts(scene: &Scene) -> Vec<(String, String)> {
         probes: _,
         equilibrium: _,
         gravity,
+        water,
         engine,
         solver_iterations,
         bodies,
@@ -138,6 +139,9 @@ fn parts(scene: &Scene) -> Vec<(String, String)> {
     let mut out = Vec::new();
     let mut add = |what: String, part: &dyn Debug| out.push((what, checksum(&format!("{part:?}"))));
     add("`gravity`".into(), gravity);
+    if let Some(water) = water {
+        add("`water`".into(), water);
+    }
     add("`engine`".into(), engine);
     add("`solver_iterations`".into(), solver_iterations);
     cables.iter().for_each(|x| add(format!("cable {:?}", x.name), x));

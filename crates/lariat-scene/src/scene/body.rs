@@ -3,10 +3,11 @@
 use super::course::{Course, Path as CoursePath};
 use super::mesh::Mesh;
 use super::path::{self, PathOrRows, PathTable};
+use super::water::{self, BodyWater, BodyWaterTable};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Kind, NOT_NEGATIVE, POSITIVE, UNIT, choice, table};
-use lariat_ancf::Vector3;
+use lariat_ancf::{Vector3, Water};
 use nalgebra::UnitQuaternion;
 use serde::Deserialize;
 use std::path::Path;
@@ -60,6 +61,8 @@ table! {
         /// Path of the origin of a kinematic body, linear between rows, at rest outside, with corners that belong on multiples of `dt`; or a
         /// table with rotations, a file, cubics.
         path: Option<PathOrRows> = ("none"), Kind::Either(&[Kind::Ascending(&["t", "x", "y", "z"]), Kind::Table(&PathTable::TABLE)]), "s, m";
+        /// What the water of `[water]` does to it.
+        water: Option<BodyWaterTable> = ("it is in air"), Kind::Table(&BodyWaterTable::TABLE);
     }
 }
 
@@ -132,10 +135,17 @@ pub struct BodyScene {
     pub friction: Option<f64>,
     /// Coefficient of restitution.
     pub restitution: f64,
+    /// What water does to it; `None` = it is in air.
+    pub water: Option<BodyWater>,
 }
 
 /// Reads the body at a path of keys; files are named from `folder`.
-pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Path) -> Result<BodyScene, Error> {
+pub(super) fn read(
+    doc: &Document<'_>,
+    at: &KeyPath,
+    row: BodyTable,
+    (folder, water): (&Path, Option<&Water>),
+) -> Result<BodyScene, Error> {
     check_kind(doc, at, &row)?;
     let mut shape = row.shape.clone();
     match &mut shape {
@@ -162,6 +172,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: BodyTable, folder: &Pa
     check_path(doc, at, &row, &path)?;
     let mut body = BodyScene {
         mass: mass(doc, at, &row, &shape)?,
+        water: water::of_body(doc, &at.key("water"), row.water, (row.kind, &shape, water))?,
         inertia: inertia(doc, &at.key("inertia"), row.inertia)?,
         name: row.name,
         kind: row.kind,
@@ -291,6 +302,7 @@ mod tests {
             angle: std::f64::consts::FRAC_PI_2,
             friction: None,
             restitution: 0.0,
+            water: None,
         };
         let point = Vector3::new(1.0, 0.0, 0.0);
         let world = body.to_world(&point);

@@ -9,7 +9,7 @@ use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
 use lariat_ancf::{
-    At, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3,
+    At, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3, Water,
 };
 use serde::Deserialize;
 
@@ -213,7 +213,7 @@ pub(super) fn read(
     doc: &Document<'_>,
     at: &KeyPath,
     mut row: CableTable,
-    gravity: Vector3<f64>,
+    (gravity, water): (Vector3<f64>, Option<&Water>),
 ) -> Result<(CableScene, Option<DrumTable>), Error> {
     if let Some(i) = row.points.windows(2).position(|p| p[0] == p[1]) {
         let problem = format!("points {i} and {} coincide at {:?}", i + 1, row.points[i].as_slice());
@@ -226,13 +226,13 @@ pub(super) fn read(
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let rule = rule(doc, &at.key("rule"), &row, integrator.rule())?;
     let section = section(doc, at, &row)?;
-    let length = length(doc, at, &row, (section, rule, gravity), drawn)?;
+    let length = length(doc, at, &row, (section, rule, gravity), (drawn, water))?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements.count()))?;
     let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
         None => (None, false, None),
     };
-    let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length })?;
+    let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length, water })?;
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
     let needs = [
         ("contact", effects.contact.is_some()),
@@ -272,7 +272,7 @@ fn length(
     at: &KeyPath,
     row: &CableTable,
     (section, rule, gravity): (Section, Rule, Vector3<f64>),
-    drawn: f64,
+    (drawn, water): (f64, Option<&Water>),
 ) -> Result<f64, Error> {
     let given = [("length", row.length), ("pretension", row.pretension), ("sag", row.sag)];
     let mut given = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
@@ -286,7 +286,7 @@ fn length(
     let mut rest = row.effects.clone();
     breaking::read(doc, at, &mut rest, (drawn, row.elements.count()))?;
     reel::read(doc, at, &mut rest)?;
-    let effects = effects::read(doc, at, rest, &effects::Context { section: &section, rule, length: drawn })?;
+    let effects = effects::read(doc, at, rest, &effects::Context { section: &section, rule, length: drawn, water })?;
     let builder =
         Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize).section(section);
     let builder =

@@ -4,13 +4,14 @@
 //! rest shape of the whole cable) it is written out before serde reads it.
 
 use super::flow::{self, FLOW};
+use super::water;
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, choice, table};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
     AxialLaw, BendingRule, Buoyancy, Contact, Damping, Drag, Effects, EndSpin, GravityScale, LineLoad, LineLoads,
-    RestPiece, RestShape, RopeKind, Rule, Section, Torsion, for_each_effect,
+    RestPiece, RestShape, RopeKind, Rule, Section, Torsion, Water, for_each_effect,
 };
 use toml::Value;
 
@@ -22,6 +23,8 @@ pub(super) struct Context<'c> {
     pub rule: Rule,
     /// Unstretched length in m.
     pub length: f64,
+    /// Water of the scene.
+    pub water: Option<&'c Water>,
 }
 
 /// An effect as a scene writes it. Every effect of the list of the mechanics is one.
@@ -130,8 +133,8 @@ impl SceneEffect for Damping {
 table! {
     /// Drag of a fluid or wind by Morison's formula.
     keys DRAG for Drag("[cable.drag]") {
-        /// Density of the fluid.
-        fluid_density = required, Kind::Number(POSITIVE), "kg/m^3";
+        /// Density of the fluid. Without it the cable is in the water of `[water]`, with its current, level and wave.
+        fluid_density = ("that of `[water]`; required without one"), Kind::Number(POSITIVE), "kg/m^3";
         /// Normal coefficient on the diameter.
         normal = 1.2, Kind::Number(NOT_NEGATIVE);
         /// Tangential coefficient on the diameter.
@@ -147,7 +150,19 @@ impl SceneEffect for Drag {
     const KIND: Kind = Kind::Table(&DRAG);
     const WITHOUT: &'static str = "off";
 
-    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
+        if water::write_into(doc, at, value, cable.water)?
+            && let (Some(drag), Some(water)) = (value.as_table_mut(), cable.water)
+        {
+            if drag.contains_key("flow") {
+                return Err(doc.conflict(
+                    &at.key("flow"),
+                    "the current is that of [water]: give a fluid_density of its own, too",
+                ));
+            }
+            drag.insert("flow".to_string(), water::as_toml(doc, at, &water.flow)?);
+            return Ok(());
+        }
         value.get_mut("flow").map_or(Ok(()), |flow| flow::write_out(doc, &at.key("flow"), flow))
     }
 
@@ -160,20 +175,31 @@ impl SceneEffect for Drag {
 }
 
 table! {
-    /// Buoyancy and added mass in a fluid at rest.
+    /// Buoyancy and added mass in a fluid at rest, or in the water of `[water]`: there what is above the level has none, and the wave pushes.
     keys BUOYANCY for Buoyancy("[cable.buoyancy]") {
         /// Density of the fluid.
-        fluid_density = required, Kind::Number(POSITIVE), "kg/m^3";
+        fluid_density = ("that of `[water]`; required without one"), Kind::Number(POSITIVE), "kg/m^3";
         /// Coefficient of added mass; 0 for none.
         added_mass = 1.0, Kind::Number(NOT_NEGATIVE);
         /// Displaced area, required for a cable without `section`.
         area = ("that of the section"), Kind::Number(POSITIVE), "m^2";
     }
+    without surface;
 }
 
 impl SceneEffect for Buoyancy {
     const KIND: Kind = Kind::Table(&BUOYANCY);
     const WITHOUT: &'static str = "off";
+
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
+        if water::write_into(doc, at, value, cable.water)?
+            && let Some(surface) = cable.water.and_then(|water| water.flow.surface)
+            && let Some(buoyancy) = value.as_table_mut()
+        {
+            buoyancy.insert("surface".to_string(), water::as_toml(doc, at, &surface)?);
+        }
+        Ok(())
+    }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
         match self.area.or(cable.section.outer_area) {

@@ -19,6 +19,7 @@ table! {
         history = ("1"), Kind::Ascending(&["t", "factor"]), "s, 1";
     }
     without samples;
+    without surface;
     plus &[Key {
         name: "power_law",
         kind: Kind::Table(&PowerLawTable::TABLE),

@@ -9,6 +9,7 @@
 //! | `mod`: [`SceneTable`] | the scene itself |
 //! | [`cable`], [`integrator`], [`effects`], [`flow`], [`breaking`], [`reel`] | `[[cable]]` |
 //! | [`body`], [`course`], `path`, `mesh` | `[[body]]` |
+//! | [`water`] | `[water]`, `[body.water]` |
 //! | [`joint`], [`attachment`], [`junction`], [`sheave`], [`load`], [`probe`] | the tables of these names |
 //! | `references` | names and points that tables refer to |
 //! | `passing` | the parts of a cable between its sheaves |
@@ -36,6 +37,7 @@ pub mod probe;
 pub mod reel;
 mod references;
 pub mod sheave;
+pub mod water;
 
 pub use attachment::AttachmentScene;
 pub use cable::CableScene;
@@ -50,7 +52,7 @@ use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Kind, MANY, POSITIVE, VECTOR, choice, table};
 use body::BodyScene;
-use lariat_ancf::Vector3;
+use lariat_ancf::{Vector3, Water};
 use std::path::Path;
 
 /// Largest number of steps, and of samples of a probe, in a run; more is taken for a mistake.
@@ -105,6 +107,8 @@ table! {
         engine: Option<Engine> = ("`\"rapier\"` with bodies, junctions, sheaves or contact between cables, else `\"none\"`"), Kind::Choice(Engine::names);
         /// Rapier's `num_solver_iterations`, with `engine = "rapier"`.
         solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, MANY);
+        /// Water with its surface, current and wave.
+        water: Option<water::WaterTable> = ("none"), Kind::Table(&water::WaterTable::TABLE);
         /// Rigid bodies.
         body: Vec<body::BodyTable> = ("none"), Kind::Tables(&body::BodyTable::TABLE);
         /// Joints between bodies.
@@ -137,6 +141,8 @@ pub struct Scene {
     pub equilibrium: bool,
     /// Gravity in m/s^2.
     pub gravity: Vector3<f64>,
+    /// Water that cables and bodies are in.
+    pub water: Option<Water>,
     /// What moves bodies.
     pub engine: Engine,
     /// Rapier's number of solver iterations; `None` = its own.
@@ -209,6 +215,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         dt,
         equilibrium: table.initial == Start::Equilibrium,
         gravity: table.gravity,
+        water: water::read(doc, table.water, table.gravity)?,
         engine,
         solver_iterations: table.solver_iterations.map(|n| n as usize),
         bodies: Vec::new(),
@@ -226,7 +233,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     for (i, row) in table.cable.into_iter().enumerate() {
         let at = root.key("cable").item(i);
         references::unique(doc, &at, &row.name, scene.cables.iter().map(|c| c.name.as_str()))?;
-        let (cable, drum) = cable::read(doc, &at, row, scene.gravity)?;
+        let (cable, drum) = cable::read(doc, &at, row, (scene.gravity, scene.water.as_ref()))?;
         drums.extend(drum.map(|drum| (i, drum)));
         if cable.effects.contact.is_some() && engine == Engine::None {
             return Err(
@@ -239,7 +246,8 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     for (i, row) in table.body.into_iter().enumerate() {
         let at = root.key("body").item(i);
         references::unique(doc, &at, &row.name, scene.bodies.iter().map(|b| b.name.as_str()))?;
-        scene.bodies.push(body::read(doc, &at, row, folder)?);
+        let body = body::read(doc, &at, row, (folder, scene.water.as_ref()))?;
+        scene.bodies.push(body);
     }
     for (i, row) in table.joint.into_iter().enumerate() {
         let row = joint::read(doc, &scene, i, row)?;

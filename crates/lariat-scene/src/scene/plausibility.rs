@@ -13,7 +13,7 @@ use super::load::LoadScene;
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::warning::sizes;
-use lariat_ancf::{Cable, Flow, Vector3};
+use lariat_ancf::{Cable, Flow, Vector3, Water};
 use std::f64::consts::TAU;
 
 /// Largest axial strain, on the mean of a cable, that its drawn corners may make.
@@ -32,6 +32,8 @@ const STUBBY: f64 = 10.0;
 const SLACK: f64 = 3.0;
 /// Largest distance of an anchor from the origin of a dynamic body over the radius of its shape.
 const ANCHOR: f64 = 3.0;
+/// Largest size of a body over the length of a wave that it does not disturb (Faltinsen 1990, ch. 3).
+const IN_WAVES: f64 = 0.2;
 /// Largest force over EA.
 const LOAD: f64 = 1.0;
 
@@ -44,6 +46,7 @@ impl Scene {
         warnings.extend(self.far_anchors());
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
+        warnings.extend(self.large_in_waves());
         warnings.extend(self.moments_along());
         if purpose != Purpose::Static {
             warnings.extend(self.falling());
@@ -94,7 +97,8 @@ impl Scene {
             };
             let shape = !matches!(body.shape, BodyShape::None);
             let caught = shape && self.cables.iter().zip(&cables_held).any(catches);
-            if !held[i] && share > 1e-6 && !caught && !self.bodies.iter().enumerate().any(stops) {
+            if !held[i] && body.water.is_none() && share > 1e-6 && !caught && !self.bodies.iter().enumerate().any(stops)
+            {
                 warnings.push(falls(body, share));
             }
         }
@@ -131,6 +135,18 @@ impl Scene {
             let (name, at_m) = (|| cable.name.clone(), load.arc_length);
             let large = force_n > LOAD * axial_stiffness_n;
             large.then(|| Warning::LargeLoad { cable: name(), at_m, force_n, axial_stiffness_n })
+        })
+    }
+
+    /// Returns a warning for each body in water that is not small beside the wave.
+    fn large_in_waves(&self) -> impl Iterator<Item = Warning> {
+        let wave = self.water.as_ref().and_then(Water::wave).map(|wave| TAU / wave.number(self.gravity.norm()));
+        wave.into_iter().flat_map(|wave_length_m| {
+            let in_water = self.bodies.iter().filter(|body| body.water.is_some());
+            in_water.filter_map(move |body| {
+                let (body, size_m) = (body.name.clone(), 2.0 * radius(body));
+                (size_m > IN_WAVES * wave_length_m).then_some(Warning::LargeInWaves { body, size_m, wave_length_m })
+            })
         })
     }
 

@@ -24,6 +24,7 @@ impl Warning {
             | Warning::ThickElements { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
+            | Warning::LargeInWaves { .. }
             | Warning::ManyTurns { .. } => Level::Setup,
             Warning::OpenGap { .. }
             | Warning::Unsettled { .. }
@@ -65,6 +66,7 @@ impl Warning {
             | Warning::ErrorNotReached { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::FarAnchor { .. }
+            | Warning::LargeInWaves { .. }
             | Warning::ManyTurns { .. } => None,
         }
     }
@@ -100,6 +102,7 @@ impl Judged for Warning {
             | Warning::SlowStretch { .. }
             | Warning::MuchSlack { .. }
             | Warning::FarAnchor { .. }
+            | Warning::LargeInWaves { .. }
             | Warning::ManyTurns { .. } => return None,
         })
     }
@@ -142,6 +145,7 @@ impl Judged for Warning {
             Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
             Warning::FarAnchor { distance_m, radius_m, .. } => distance_m / radius_m,
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
+            Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
             Warning::NoConvergence { .. }
             | Warning::ErrorNotReached { .. }

@@ -242,6 +242,19 @@ pub enum Warning {
         /// Largest compressive strain, if it is beyond what the rule holds.
         compression: Option<f64>,
     },
+    /// A body in water that is not small beside the wave.
+    #[error(
+        "body {body:?}: it is {size_m:.3} m large in waves of {wave_length_m:.3} m: it would disturb them, and feels them as if it were small; take it for a \
+         rough estimate"
+    )]
+    LargeInWaves {
+        /// Name of the body.
+        body: String,
+        /// Diameter of the ball about its origin that holds its shape in m.
+        size_m: f64,
+        /// Length of the wave in m.
+        wave_length_m: f64,
+    },
     /// A dynamic body that statics leave where it is drawn.
     #[error("body {body:?}: no cable is attached to it: it is left where it is drawn, and may not be at rest there")]
     LeftAsDrawn {

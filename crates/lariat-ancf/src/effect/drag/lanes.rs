@@ -20,9 +20,11 @@ use crate::element::shape;
 use crate::error::{Error, require_finite};
 use crate::linalg::BlockTridiagonal;
 use crate::quadrature::gauss_legendre;
-use crate::scales::effect::POINTS;
+use crate::scales::SMALLEST;
+use crate::scales::effect::{DIFFERENCE, POINTS};
 use crate::section::Element;
 use crate::simd::{LANES, dispatch, load, padded};
+use crate::water::{Sea, Surface, wet};
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, f64x8};
 use nalgebra::Vector3;
 
@@ -45,6 +47,9 @@ pub(crate) struct DragTable {
     pub(super) points: Vec<Point>,
     pub(super) count: usize,
     pub(super) flow: Flow,
+    /// Free surface, and by element the radius in m over which a section comes out of it.
+    pub(super) sea: Option<Sea>,
+    pub(super) radius: Vec<f64>,
     /// Length in m, k_n and k_t in kg/m^2 by element, padded.
     pub(super) length: Vec<f64>,
     pub(super) normal: Vec<f64>,
@@ -70,6 +75,8 @@ impl DragTable {
             points: points.collect(),
             count: cable.elements.len(),
             flow: drag.flow.clone(),
+            sea: drag.flow.surface.as_ref().map(Surface::sea),
+            radius: cable.elements.iter().map(|e| 0.5 * diameter(e)).collect(),
             length: padded(cable.elements.iter().map(|e| e.length)),
             normal: padded(cable.elements.iter().map(factor(drag.normal))),
             tangential: padded(cable.elements.iter().map(factor(drag.tangential))),
@@ -125,9 +132,40 @@ impl DragTable {
         out
     }
 
-    /// Returns the velocity of the fluid at a point of eight elements.
+    /// Returns the velocity of the fluid at a point of eight elements, and the share of their
+    /// sections that is wet.
     #[inline(always)]
-    pub(super) fn flow<S: Simd>(
+    pub(super) fn fluid<S: Simd>(
+        &self,
+        simd: S,
+        (time, base): (f64, &Vector3<f64>),
+        first: usize,
+        xi: f64,
+        place: &[Lanes<S>; 3],
+    ) -> ([Lanes<S>; 3], Option<Lanes<S>>) {
+        let mut flow = self.flow(simd, base, first, xi, place);
+        let Some(sea) = &self.sea else { return (flow, None) };
+        let (mut raw, mut wave, mut share) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3], [0.0; LANES]);
+        for c in 0..3 {
+            place[c].store_slice(&mut raw[c]);
+        }
+        for lane in 0..LANES {
+            let at = sea.at(time, &Vector3::new(raw[0][lane], raw[1][lane], raw[2][lane]));
+            let element = (first + lane).min(self.count - 1);
+            share[lane] = wet::share(at.depth / self.radius[element]);
+            for c in 0..3 {
+                wave[c][lane] = at.velocity[c];
+            }
+        }
+        for c in 0..3 {
+            flow[c] += Lanes::simd_from(simd, wave[c]);
+        }
+        (flow, Some(Lanes::simd_from(simd, share)))
+    }
+
+    /// Returns the velocity of the fluid at a point of eight elements, without that of a wave.
+    #[inline(always)]
+    fn flow<S: Simd>(
         &self,
         simd: S,
         base: &Vector3<f64>,
@@ -183,10 +221,10 @@ impl DragTable {
                 let place = combine(&x, &point.position);
                 let slope = times(&combine(&x, &point.slope), inverse);
                 let velocity = combine(&w, &point.position);
-                let flow = self.flow(simd, &base, first, point.xi, &place);
+                let (flow, share) = self.fluid(simd, (time, &base), first, point.xi, &place);
                 let relative = [velocity[0] - flow[0], velocity[1] - flow[1], velocity[2] - flow[2]];
                 let split = Split::new(&relative, &slope);
-                let (kn, kt) = (kn * point.weight, kt * point.weight);
+                let (kn, kt) = wetted((kn * point.weight, kt * point.weight), share);
                 let f = split.force(kn, kt);
                 for k in 0..4 {
                     for c in 0..3 {
@@ -320,12 +358,24 @@ impl PointForce for DragTable {
                 Some(profile) => (profile.factor(&at), profile.gradient(&at)),
             };
             let slope = (0..3).map(|c| along[c] * place[c].slope).sum::<f64>();
-            let flow = base * factor + self.sampled(e, point.xi);
+            let mut flow = base * factor + self.sampled(e, point.xi);
+            let mut rate = base * slope;
+            let mut share = constant(1.0);
+            if let Some(sea) = &self.sea {
+                let (way, radius) = (Vector3::from_fn(|c, _| place[c].slope), self.radius[e]);
+                let step = DIFFERENCE * radius / way.norm().max(SMALLEST);
+                let ends = [at + way * step, at - way * step].map(|place| sea.at(time, &place));
+                let here = sea.at(time, &at);
+                flow += here.velocity;
+                rate += (ends[0].velocity - ends[1].velocity) / (2.0 * step);
+                let [above, below] = ends.map(|end| end.depth / radius);
+                let depth = here.depth / radius;
+                share = Dual { value: wet::share(depth), slope: wet::slope(depth) * (above - below) / (2.0 * step) };
+            }
             let velocity = mix(v, &point.position);
-            let relative: [Dual; 3] =
-                core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: base[c] * slope });
+            let relative: [Dual; 3] = core::array::from_fn(|c| velocity[c] - Dual { value: flow[c], slope: rate[c] });
             let direction = mix(q, &point.slope).map(|c| c * (1.0 / length));
-            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| constant(k * length * point.weight));
+            let [kn, kt] = [self.normal[e], self.tangential[e]].map(|k| share * (k * length * point.weight));
             let force = Split::new(&relative, &direction).force(kn, kt);
             for i in 0..12 {
                 out[i] = out[i] + force[i % 3] * (point.position[i / 3] * arm(i / 3));
@@ -343,13 +393,23 @@ impl PointForce for DragTable {
 
     /// Returns whether the fluid moves, somewhere and at some time.
     fn drives(&self) -> bool {
-        self.flow.velocity != Vector3::zeros() || self.flow.samples.iter().any(|u| *u != Vector3::zeros())
+        self.sea.is_some_and(|sea| sea.has_wave())
+            || self.flow.velocity != Vector3::zeros()
+            || self.flow.samples.iter().any(|u| *u != Vector3::zeros())
     }
 
     fn hold(&mut self, time: f64) {
         self.flow.velocity = self.flow.in_time(time);
         self.flow.history.clear();
+        // statics are in water without a wave
+        self.sea = self.flow.surface.map(|surface| Surface { wave: None, ..surface }.sea());
     }
+}
+
+/// Returns k_n and k_t of sections of which a share is wet.
+#[inline(always)]
+pub(super) fn wetted<S: Simd>((kn, kt): (Lanes<S>, Lanes<S>), share: Option<Lanes<S>>) -> (Lanes<S>, Lanes<S>) {
+    share.map_or((kn, kt), |share| (kn * share, kt * share))
 }
 
 #[inline(always)]

@@ -11,7 +11,7 @@
 //! any iterate, and the step matrix stays definite. At convergence w = v^ - u, and this is the
 //! force of [`drag`](super).
 
-use super::lanes::{DragTable, Lanes, PAIRS, combine, times};
+use super::lanes::{DragTable, Lanes, PAIRS, combine, times, wetted};
 use super::law::Split;
 use crate::effect::acts::StepInput;
 use crate::element::gram::dot;
@@ -43,9 +43,10 @@ impl DragTable {
             for point in &self.points {
                 let place = combine(&x, &point.position);
                 let slope = times(&combine(&x, &point.slope), inverse);
-                let flow = self.flow(simd, &base, first, point.xi, &place);
+                let (flow, share) = self.fluid(simd, (step.time, &base), first, point.xi, &place);
                 let about = relative(&combine(&about, &point.position), &flow);
-                let drag = Split::new(&about, &slope).resistance(kn * point.weight, kt * point.weight);
+                let (kn, kt) = wetted((kn * point.weight, kt * point.weight), share);
+                let drag = Split::new(&about, &slope).resistance(kn, kt);
                 let v = relative(&combine(&velocity, &point.position), &flow);
                 let f = [dot(&drag[0], &v), dot(&drag[1], &v), dot(&drag[2], &v)];
                 for k in 0..4 {

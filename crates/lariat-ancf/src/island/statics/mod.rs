@@ -72,8 +72,8 @@ pub struct Links<'a> {
 
 /// Moves cables and bodies, held together by `links`, to static equilibrium under gravity, the full
 /// point loads and effects of the cables, and the forces and torques of the bodies; velocities
-/// become zero. Flow is that of the cables' time. Over sheaves runs what their pulls ask for, so
-/// that the cables may have other nodes than before.
+/// become zero. Flow is that of the cables' time, without waves. Over sheaves runs what their pulls
+/// ask for, so that the cables may have other nodes than before.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] if none is found, [`Error::ReelPlace`] for a drum that can turn, and as
@@ -110,6 +110,9 @@ pub fn equilibrium(
     for cable in cables.iter_mut() {
         let now = cable.time();
         cable.model.loads.iter_mut().for_each(|load| load.stay(now));
+        if cable.system.forces.drive() {
+            cable.system.forces.hold(now);
+        }
     }
     let outcome = settle(cables, &mut still, (pins, joints, sheaves), options);
     for (cable, before) in cables.iter_mut().zip(before) {
@@ -117,6 +120,10 @@ pub fn equilibrium(
             **cable = before;
         } else {
             cable.model.loads.clone_from(&before.model.loads);
+            if cable.system.forces.drive() {
+                let Cable { system, model, .. } = &mut **cable;
+                system.forces.release(model);
+            }
         }
     }
     let report = outcome?;

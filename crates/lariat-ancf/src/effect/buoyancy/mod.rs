@@ -7,16 +7,17 @@
 //! ```
 //!
 //! A_d is the displaced area per length. The weight and the mass matrix change once; a step does no
-//! more work than without.
+//! more work than without. With a free surface, forces at Gauss points take away what is dry: see
+//! `at_surface`.
 //!
 //! # Validity
 //!
-//! A closed, fully immersed cable in a fluid at rest or in slow change: the term (1 + C_a) rho_f
-//! A_d u' of an accelerated fluid is left out. A constant force per length is exact for a cable
-//! whose ends are closed; the tension that is read is then the *effective* tension (that of the
-//! wall plus the fluid's pressure times the area). Added mass acts in all directions alike: the
-//! true one acts across the cable only, so waves along it are slower by sqrt(1 + C_a rho_f
-//! A_d/rhoA).
+//! A closed cable; without a free surface fully immersed in a fluid at rest or in slow change: the
+//! term (1 + C_a) rho_f A_d u' of an accelerated fluid is that of a [wave](crate::water::wave)
+//! alone. A constant force per length is exact for a cable whose ends are closed; the tension that
+//! is read is then the *effective* tension (that of the wall plus the fluid's pressure times the
+//! area). Added mass acts in all directions alike: the true one acts across the cable only, so
+//! waves along it are slower by sqrt(1 + C_a rho_f A_d/rhoA).
 //!
 //! # References
 //!
@@ -28,10 +29,14 @@
 //! Added mass across the cable alone: a mass matrix that depends on the configuration, with its
 //! quadratic velocity terms, in every step.
 
+mod at_surface;
+
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::error::{Error, Requirement, require};
 use crate::section::Section;
+use crate::water::Surface;
+use at_surface::SurfaceTable;
 use serde::{Deserialize, Serialize};
 
 /// Buoyancy and added mass.
@@ -45,12 +50,15 @@ pub struct Buoyancy {
     /// Displaced area in m^2. Default: that inside the section's outline.
     #[serde(default)]
     pub area: Option<f64>,
+    /// Free surface, with a wave or without. Default: none, the fluid is everywhere.
+    #[serde(default)]
+    pub surface: Option<Surface>,
 }
 
 impl Buoyancy {
     /// Creates buoyancy in a fluid of this density (kg/m^3), with the coefficient of added mass.
     pub fn new(fluid_density: f64, added_mass: f64) -> Self {
-        Buoyancy { fluid_density, added_mass, area: None }
+        Buoyancy { fluid_density, added_mass, area: None, surface: None }
     }
 }
 
@@ -58,22 +66,23 @@ impl Effect for Buoyancy {
     const DISSIPATIVE: bool = false;
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
-        let Buoyancy { fluid_density, added_mass, area } = *self;
+        let Buoyancy { fluid_density, added_mass, area, surface } = *self;
         require("fluid density (kg/m^3)", fluid_density, fluid_density > 0.0, "> 0")?;
         require("coefficient of added mass", added_mass, added_mass >= 0.0, ">= 0")?;
         require("displaced area (m^2)", area.unwrap_or(1.0), area.is_none_or(|a| a > 0.0), "> 0")?;
         if area.is_none() && cable.elements.iter().any(|e| e.section.outer_area.is_none()) {
             return Err(cable.missing("buoyancy", Requirement::DisplacedArea));
         }
-        Ok(())
+        surface.map_or(Ok(()), |surface| at_surface::check(&surface, cable))
     }
 
     fn depends_on_velocity(&self) -> bool {
         false
     }
 
+    /// Returns whether there is no surface: the gradient of a wave is left out.
     fn has_exact_tangent(&self) -> bool {
-        true
+        self.surface.is_none()
     }
 
     fn needs_implicit_integrator(&self) -> bool {
@@ -81,7 +90,7 @@ impl Effect for Buoyancy {
     }
 
     fn is_steady(&self, _from: f64, _to: f64) -> bool {
-        true
+        self.surface.is_none_or(|surface| surface.wave.is_none())
     }
 
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
@@ -93,7 +102,13 @@ impl Effect for Buoyancy {
 
 impl Acts for Buoyancy {
     type InElement = Nothing;
-    type AtPoints = Nothing;
+    type AtPoints = SurfaceTable;
+
+    fn at_points(&self, cable: &Target<'_>) -> Option<SurfaceTable> {
+        self.surface
+            .as_ref()
+            .map(|surface| SurfaceTable::new(surface, (self.fluid_density, self.added_mass, self.area), cable))
+    }
 
     fn added_mass(&self, section: &Section) -> f64 {
         self.added_mass * self.displaced_mass(section)
