@@ -173,8 +173,8 @@ fn velocity_of(world: &PhysicsWorld, collider: &Collider) -> Vector3<f64> {
 }
 
 /// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
-/// is faster than `fastest` (m/s); `None` if it cannot. Of pairs in contact it is the speed of their
-/// points along the normal, of others an upper bound of that of any of their points.
+/// is faster than `fastest` (m/s); `None` if it cannot. Of pairs in contact it is the speed of
+/// their points along the normal, of others an upper bound of that of any of their points.
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fastest): (f64, f64)) -> Option<f64> {
     let velocity = vector(world.bodies[handle].linvel());
     let margin = f64::from(world.integration_parameters.prediction_distance());
