@@ -42,8 +42,8 @@
 //! its parts close nothing, but those of cables with cables down to the last division. If a body of
 //! the island was moved by others since its last step, by the contacts that an engine computes, the
 //! offset has either sign, so that the force goes on, and closes in a quarter of a second: that is
-//! work of the others, `N` times what closes, and no more than they gave, `N` times the way by which
-//! they moved the body into the cable. A cable that was pinched at once stores nothing of it.
+//! work of the others, `N` times what closes, and no more than they gave, `N` times the way by
+//! which they moved the body into the cable. A cable that was pinched at once stores nothing of it.
 //!
 //! # Bodies
 //!

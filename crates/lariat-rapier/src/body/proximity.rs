@@ -220,16 +220,16 @@ fn direction(own: &Collider, other: &Collider) -> Option<Vector3<f64>> {
 }
 
 /// Returns the speed in m/s at which a body may collide with another within `dt` (s), if no other
-/// is faster than `fastest` (m/s); `None` if it cannot. Of pairs in contact it is the speed of their
-/// points along the normal, of others an upper bound of that of any of their points.
+/// is faster than `fastest` (m/s); `None` if it cannot. Of pairs in contact it is the speed of
+/// their points along the normal, of others an upper bound of that of any of their points.
 pub(crate) fn collision(world: &PhysicsWorld, handle: RigidBodyHandle, within: (f64, f64)) -> Option<f64> {
     let mut speed: Option<f64> = None;
     for_each_push(world, handle, within, |push, _| speed = Some(speed.unwrap_or(0.0).max(push)));
     speed
 }
 
-/// Returns the largest relative speed in m/s along the normal at the points of a manifold of a pair;
-/// 0 if one of its colliders is gone.
+/// Returns the largest relative speed in m/s along the normal at the points of a manifold of a
+/// pair; 0 if one of its colliders is gone.
 fn closing_speed(world: &PhysicsWorld, pair: &ContactPair, manifold: &ContactManifold) -> f64 {
     let [one, two] = [pair.collider1, pair.collider2].map(|handle| world.colliders.get(handle));
     let (Some(one), Some(two)) = (one, two) else { return 0.0 };

@@ -7,13 +7,13 @@
 //!
 //! # Validity
 //! Bodies are where their [joints](joints) allow; those that joints connect to a body with a cable
-//! move with it. Over sheaves runs what the pulls ask for; a drum must be locked in
-//! its rotation, or it has no equilibrium. No contacts of bodies: a body that has one is an error, before or after the search. Cables with contact lie,
-//! without friction, on the colliders of all bodies that stay where they are: fixed, kinematic, and
-//! dynamic ones that do not move with cables. One that would run through a collider, over a sharp
-//! edge or something thin that its samples do not see, is an error. Contact of cables with each
-//! other, and with bodies that they move, takes no part. A cable alone may end in an indifferent
-//! shape, which its report says.
+//! move with it. Over sheaves runs what the pulls ask for; a drum must be locked in its rotation,
+//! or it has no equilibrium. No contacts of bodies: a body that has one is an error, before or
+//! after the search. Cables with contact lie, without friction, on the colliders of all bodies that
+//! stay where they are: fixed, kinematic, and dynamic ones that do not move with cables. One that
+//! would run through a collider, over a sharp edge or something thin that its samples do not see,
+//! is an error. Contact of cables with each other, and with bodies that they move, takes no part. A
+//! cable alone may end in an indifferent shape, which its report says.
 
 mod contacts;
 mod joints;

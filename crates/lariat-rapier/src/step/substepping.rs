@@ -26,9 +26,9 @@
 //!
 //! *Blows.* A cable follows a body that deviates by its linear response. A collision displaces an
 //! end by v h at most, v that of the points that collide; by more than half an element it would
-//! fold that. A cable that touches what it is tied to is found there by where the body was expected:
-//! displaced by more than its radius its centre line would be inside, or on the other side of an
-//! edge.
+//! fold that. A cable that touches what it is tied to is found there by where the body was
+//! expected: displaced by more than its radius its centre line would be inside, or on the other
+//! side of an edge.
 //!
 //! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with
 //! which that begins. If they change in it, by a line that snaps taut, bodies on joints have turned

@@ -22,10 +22,10 @@
 //! # Validity
 //!
 //! Loads on bodies that are constant in world axes. A drum that is a body must not turn, nor what
-//! holds its eye: one that is free to turn rests only where something else balances the pull. Cables
-//! touch obstacles that stand still,
-//! without friction; contact of the bodies, and of cables with them, must be known to the caller.
-//! Modes without stiffness, such as a turn about a rope, keep their place.
+//! holds its eye: one that is free to turn rests only where something else balances the pull.
+//! Cables touch obstacles that stand still, without friction; contact of the bodies, and of cables
+//! with them, must be known to the caller. Modes without stiffness, such as a turn about a rope,
+//! keep their place.
 //!
 //! # References
 //!
