@@ -44,7 +44,8 @@ impl Tow {
         let ship = Vector3::new(0.0, 2.0, 0.0);
         let turn = nalgebra::Rotation3::new(Vector3::new(0.0, 0.0, 0.03));
         let points: Vec<Vector3<f64>> = self.solve().0.into_iter().map(|x| ship + turn * (x - ship)).collect();
-        let Vector3 { x, y, .. } = points[points.len() - 1];
+        let last = points[points.len() - 1];
+        let (x, y) = (last.x, last.y);
         let points: Vec<[f64; 3]> = points.iter().map(|x| [x.x, x.y, x.z]).collect();
         format!(
             "duration = 60.0\n[water]\ndensity = {RHO}\n{level}current = [{stream}, 0.0, 0.0]\n\
