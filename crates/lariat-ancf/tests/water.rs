@@ -20,7 +20,12 @@ fn in_waves() -> Surface {
 
 fn in_water(surface: Option<Surface>) -> Effects {
     Effects {
-        drag: Some(Drag::new(RHO, 1.1, 0.05, Flow { surface, ..Flow::uniform(Vector3::new(0.2, 0.0, 0.1)) })),
+        drag: Some(Drag::new(
+            RHO,
+            1.1,
+            0.05,
+            Flow { surface: surface.map(Box::new), ..Flow::uniform(Vector3::new(0.2, 0.0, 0.1)) },
+        )),
         buoyancy: Some(Buoyancy { surface, ..Buoyancy::new(RHO, 1.0) }),
         ..Effects::default()
     }

@@ -67,7 +67,7 @@ pub struct Flow {
     pub samples: Vec<Vector3<f64>>,
     /// Free surface, with a wave or without. Default: none, the fluid is everywhere.
     #[serde(default)]
-    pub surface: Option<Surface>,
+    pub surface: Option<Box<Surface>>,
 }
 
 impl Flow {
@@ -95,7 +95,7 @@ impl Flow {
 
     /// Returns the same flow below a free surface, with the velocity of its wave.
     pub fn with_surface(mut self, surface: Surface) -> Self {
-        self.surface = Some(surface);
+        self.surface = Some(Box::new(surface));
         self
     }
 
@@ -116,7 +116,7 @@ impl Flow {
 
     /// Returns whether it is the same from one time to another, in s.
     pub(crate) fn is_steady(&self, from: f64, to: f64) -> bool {
-        if self.surface.is_some_and(|surface| surface.wave.is_some()) {
+        if self.surface.as_ref().is_some_and(|surface| surface.wave.is_some()) {
             return false;
         }
         if self.history.is_empty() || self.velocity == Vector3::zeros() {
@@ -133,7 +133,7 @@ impl Flow {
             check_rows("a flow's profile", rows)?;
             require("rows of a flow's profile", rows.len() as f64, !rows.is_empty(), ">= 1")?;
         }
-        self.surface.map_or(Ok(()), |surface| surface.check())?;
+        self.surface.as_ref().map_or(Ok(()), |surface| surface.check())?;
         self.samples.iter().try_for_each(|sample| require_finite("sampled flow (m/s)", sample))?;
         check_rows("a flow's history", &self.history)
     }

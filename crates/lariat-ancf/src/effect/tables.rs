@@ -45,7 +45,7 @@ macro_rules! generate {
 
             /// Tables for Gauss points.
             pub(crate) fn at_points(&self, cable: &Target<'_>) -> PointTables {
-                PointTables { $($field: self.$field.as_ref().and_then(|effect| effect.at_points(cable)),)* }
+                PointTables { $($field: self.$field.as_ref().and_then(|effect| effect.at_points(cable)).map(Box::new),)* }
             }
 
             /// Constant generalised forces.
@@ -153,10 +153,10 @@ macro_rules! generate {
             }
         }
 
-        /// Effects at Gauss points.
+        /// Effects at Gauss points; boxed, so that absent ones take no room.
         #[derive(Clone, Debug)]
         pub(crate) struct PointTables {
-            $(pub $field: Option<<$type as Acts>::AtPoints>,)*
+            $(pub $field: Option<Box<<$type as Acts>::AtPoints>>,)*
         }
 
         impl PointTables {

@@ -43,14 +43,15 @@ impl Water {
 
     /// Returns the same fluid with a current.
     pub fn with_flow(mut self, flow: Flow) -> Self {
-        let surface = flow.surface.or(self.flow.surface);
-        self.flow = Flow { surface, ..flow };
+        let surface = self.flow.surface.take();
+        self.flow = flow;
+        self.flow.surface = self.flow.surface.or(surface);
         self
     }
 
     /// Returns the same fluid below a free surface.
     pub fn with_surface(mut self, surface: Surface) -> Self {
-        self.flow.surface = Some(surface);
+        self.flow = self.flow.with_surface(surface);
         self
     }
 
@@ -66,7 +67,7 @@ impl Water {
 
     /// Returns buoyancy of a cable in it, with a coefficient of added mass.
     pub fn buoyancy(&self, added_mass: f64) -> Buoyancy {
-        Buoyancy { surface: self.flow.surface, ..Buoyancy::new(self.density, added_mass) }
+        Buoyancy { surface: self.flow.surface.as_deref().copied(), ..Buoyancy::new(self.density, added_mass) }
     }
 
     /// Checks its numbers.

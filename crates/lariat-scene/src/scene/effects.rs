@@ -193,10 +193,10 @@ impl SceneEffect for Buoyancy {
 
     fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
         if water::write_into(doc, at, value, cable.water)?
-            && let Some(surface) = cable.water.and_then(|water| water.flow.surface)
+            && let Some(surface) = cable.water.and_then(|water| water.flow.surface.as_deref())
             && let Some(buoyancy) = value.as_table_mut()
         {
-            buoyancy.insert("surface".to_string(), water::as_toml(doc, at, &surface)?);
+            buoyancy.insert("surface".to_string(), water::as_toml(doc, at, surface)?);
         }
         Ok(())
     }

@@ -75,7 +75,7 @@ impl DragTable {
             points: points.collect(),
             count: cable.elements.len(),
             flow: drag.flow.clone(),
-            sea: drag.flow.surface.as_ref().map(Surface::sea),
+            sea: drag.flow.surface.as_deref().map(Surface::sea),
             radius: cable.elements.iter().map(|e| 0.5 * diameter(e)).collect(),
             length: padded(cable.elements.iter().map(|e| e.length)),
             normal: padded(cable.elements.iter().map(factor(drag.normal))),
@@ -402,7 +402,7 @@ impl PointForce for DragTable {
         self.flow.velocity = self.flow.in_time(time);
         self.flow.history.clear();
         // statics are in water without a wave
-        self.sea = self.flow.surface.map(|surface| Surface { wave: None, ..surface }.sea());
+        self.sea = self.flow.surface.as_ref().map(|surface| Surface { wave: None, ..**surface }.sea());
     }
 }
 
