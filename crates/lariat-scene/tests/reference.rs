@@ -25,11 +25,14 @@ fn the_page_shows_the_keys_of_the_schema() {
 fn the_scenes_of_the_page_are_accepted() {
     let page = page();
     let blocks: Vec<&str> = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    assert_eq!(blocks.len(), 2);
+    assert_eq!(blocks.len(), 3);
     Scene::parse("page.toml", blocks[0], &[], Purpose::Run).unwrap();
-    // an effect is a part of a cable
+    // effects are parts of a cable, which the page leaves out of its water
     let cable = blocks[0].find("[[attachment]]").unwrap();
     let text = format!("{}{}{}", &blocks[0][..cable], blocks[1], &blocks[0][cable..]);
+    Scene::parse("page.toml", &text, &[], Purpose::Run).unwrap();
+    let drawn = "name = \"tether\"\npoints = [[0.0, 3.0, 0.0], [2.0, -2.0, 0.0]]\nsection = { wire_rope = 0.01 }\n";
+    let text = format!("duration = 1.0\n{}", blocks[2].replace("# ...\n", drawn));
     Scene::parse("page.toml", &text, &[], Purpose::Run).unwrap();
 }
 

@@ -144,11 +144,11 @@ pub(crate) fn may_collide(world: &PhysicsWorld, handle: RigidBodyHandle, (dt, fa
 
 /// Returns the colliders of a body and of others that may touch within `dt` (s), whether Rapier
 /// lists them or not. Slow bodies among slow ones need no look-up.
-fn within_reach<'a>(
-    world: &'a PhysicsWorld,
+fn within_reach(
+    world: &PhysicsWorld,
     handle: RigidBodyHandle,
     (dt, fastest): (f64, f64),
-) -> impl Iterator<Item = (&'a Collider, &'a Collider)> {
+) -> impl Iterator<Item = (&Collider, &Collider)> {
     let velocity = vector(world.bodies[handle].linvel());
     let displacement = velocity * dt;
     let listed = f64::from(world.integration_parameters.prediction_distance());

@@ -282,8 +282,8 @@ fn cone(half: f64, radius: f64) -> Mesh {
 
 fn capsule(half: f64, radius: f64) -> Mesh {
     let ring = |i: u32| libm::sincos(PI * f64::from(i) / f64::from(2 * RINGS));
-    let below = (1..=RINGS).map(|i| ring(i)).map(|(s, c)| [-half - radius * c, radius * s]);
-    let above = (RINGS..2 * RINGS).map(|i| ring(i)).map(|(s, c)| [half - radius * c, radius * s]);
+    let below = (1..=RINGS).map(&ring).map(|(s, c)| [-half - radius * c, radius * s]);
+    let above = (RINGS..2 * RINGS).map(&ring).map(|(s, c)| [half - radius * c, radius * s]);
     let rings: Vec<[f64; 2]> = below.chain(above).collect();
     let (mut corners, triangles) = lathe(&rings, -half - radius, half + radius);
     // its true volume, by a scale of all radii
