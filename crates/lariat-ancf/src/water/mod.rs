@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`mod@wave`] | the wave: dispersion, velocity, acceleration, pressure |
 //! | [`mod@surface`] | the surface that cables and bodies are under, or above |
-//! | [`wet`] | how much of a round section is below the surface |
+//! | `wet` | how much of a round section is below the surface |
 //!
 //! What water does is told by those who are in it: [`drag`](crate::effect::drag) and
 //! [`buoyancy`](crate::effect::buoyancy) of cables, `lariat_rapier::water` of bodies.

@@ -158,7 +158,8 @@ fn statics_are_the_end_of_damped_motion() {
 /// *Source.* The contract.
 #[test]
 fn what_tension_that_makes_torque_does_not_go_with_is_refused() {
-    let torsion = Some(torsion(0.0));
+    let stranded = torsion(0.0);
+    let torsion = Some(stranded);
     let told = |error: Error| {
         assert!(matches!(error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("torque_per_tension"), "{error}");
@@ -173,6 +174,6 @@ fn what_tension_that_makes_torque_does_not_go_with_is_refused() {
     let mut cable = rope(Effects::default()).build().unwrap();
     cable.add_reel(At::End, Reel::default()).unwrap();
     told(cable.set_effects(Effects { torsion, ..Effects::default() }).unwrap_err());
-    let broken = Torsion { torque_per_tension: f64::NAN, ..torsion.unwrap() };
+    let broken = Torsion { torque_per_tension: f64::NAN, ..stranded };
     assert!(rope(Effects { torsion: Some(broken), ..Effects::default() }).build().is_err());
 }

@@ -272,7 +272,8 @@ fn the_bordered_matrix_of_a_segment_is_the_derivative_of_its_force() {
         let torsion = Torsion { torque_per_tension: per_tension, ..Torsion::new(0.8) };
         let segment = Segment::between(&torsion, &elements, [0, 3]);
         for _ in 0..20 {
-            let node = |i: usize| if i % 6 == 0 { LENGTH * (i / 6) as f64 } else { f64::from(u8::from(i % 6 == 3)) };
+            let node =
+                |i: usize| if i.is_multiple_of(6) { LENGTH * (i / 6) as f64 } else { f64::from(u8::from(i % 6 == 3)) };
             let q: Vec<f64> = (0..24).map(|i| node(i) + 0.15 * next()).collect();
             let along: Vec<f64> = (0..24).map(|_| next()).collect();
             let twist = 4.0 * next();
