@@ -62,4 +62,4 @@ def test_a_rope_that_is_lowered_on_a_floor_lies_on_itself() -> None:
 
 def test_what_the_element_does_not_have_is_refused_by_name() -> None:
     result = run(registry.load_experiment("twist"), LariatSolver(), n_elements=10)
-    assert result.outcome == "unsupported" and "torsion" in result.missing[0]
+    assert result.outcome == "unsupported" and "lariat.Torsion" in result.missing[0]

@@ -31,6 +31,8 @@ class Buoyancy:
     """Coefficient of added mass, >= 0; 1 for a circle in ideal flow."""
     area: float | None = None
     """Displaced area in m^2; by default that inside the outline of the section."""
+    surface: Mapping[str, Any] | None = None
+    """The free surface of the fluid, as that of a :class:`Flow`; by default the fluid is everywhere."""
     key: ClassVar[str] = "buoyancy"
 
 
@@ -120,6 +122,9 @@ class Flow:
     """``[[time in s, factor], ...]``, times ascending."""
     samples: Sequence[Vector] = ()
     """Velocities in m/s at the nodes, on top of the rest."""
+    surface: Mapping[str, Any] | None = None
+    """The free surface of the fluid: ``{"level": m, "up": direction, "gravity": m/s^2, "wave": {"amplitude": m, "period": s, "direction":
+    direction}}``, the wave (linear, regular; also ``phase`` in rad and ``depth`` in m) may be left out. By default the fluid is everywhere."""
 
 
 @dataclass(frozen=True)
