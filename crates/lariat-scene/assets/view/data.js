@@ -67,9 +67,12 @@ function onElement(a, b, x) {
   return [at(1), at(2), at(3)];
 }
 
+// The first part of a cable in a frame, if it is there.
+const partOf = (frame, cable) => (frame.cables[cable]?.[2] === cable ? frame.cables[cable] : frame.cables.find((part) => part[2] === cable));
+
 // The point of a cable at an arc length; a break belongs to the part before it.
 function onCable(frame, cable, s) {
-  let [first, nodes] = frame.cables[cable];
+  let [first, nodes] = partOf(frame, cable);
   for (const [start, count, of] of frame.cables) {
     if (of === cable && numbers[start] < s - 1e-5 * Math.abs(s) && numbers[start] > numbers[first]) [first, nodes] = [start, count];
   }

@@ -226,7 +226,9 @@ function drawMarks(g, frame, time, names) {
   });
   if (names) {
     data.cables.forEach((cable, c) => {
-      const [first, nodes] = frame.cables[c];
+      const part = partOf(frame, c);
+      if (!part) return;
+      const [first, nodes] = part;
       const p = project(onCable(frame, c, 0.5 * (numbers[first] + numbers[first + NODE * (nodes - 1)])));
       if (p) label(cable.name, p);
     });

@@ -17,14 +17,18 @@ function equilibrium(c) {
 
 function fillHeader() {
   element("name").textContent = data.name;
-  const s = data.summary, effects = Object.entries(s.effect_evaluations).map(([k, v]) => `${k} ${v}`);
+  const s = data.summary, effects = Object.entries(s.effect_evaluations || {}).map(([k, v]) => `${k} ${v}`);
   const rows = s.statics
     ? [["CPU", `${figure(s.cpu_s)} s`], ["energy", `${figure(s.energy_end_j, 6)} J`], ...s.statics.map((c) => [c.name, equilibrium(c)])]
-    : [
-        ["simulated", `${figure(s.simulated_s, 6)} s`], ["CPU", `${figure(s.cpu_s)} s`], ["real time factor", figure(s.real_time_factor)],
-        ["steps", `${s.steps} (${s.rejected_steps} rejected)`], ["Newton iterations", s.newton_iterations],
-        ["energy", `${figure(s.energy_start_j, 6)} → ${figure(s.energy_end_j, 6)} J`], ["largest gap", `${figure(s.max_gap_m, 3)} m`],
-      ];
+    : [["simulated", `${figure(s.simulated_s, 6)} s`]];
+  // what a program stepped itself has no summary of its steps
+  if (!s.statics && s.steps !== undefined) {
+    rows.push(
+      ["CPU", `${figure(s.cpu_s)} s`], ["real time factor", figure(s.real_time_factor)],
+      ["steps", `${s.steps} (${s.rejected_steps} rejected)`], ["Newton iterations", s.newton_iterations],
+      ["energy", `${figure(s.energy_start_j, 6)} → ${figure(s.energy_end_j, 6)} J`], ["largest gap", `${figure(s.max_gap_m, 3)} m`],
+    );
+  }
   if (effects.length) rows.push(["effects", effects.join(", ")]);
   for (const [name, value] of rows) {
     const row = document.createElement("div"), dt = document.createElement("dt"), dd = document.createElement("dd");

@@ -29,7 +29,7 @@ pub mod integrator;
 pub mod joint;
 pub mod junction;
 pub mod load;
-mod mesh;
+pub(crate) mod mesh;
 mod passing;
 mod path;
 mod plausibility;

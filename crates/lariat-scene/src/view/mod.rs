@@ -23,17 +23,25 @@
 //! desktops and virtual machines, and three.js 0.187 has 2.1 MB, this page 50 kB. Where large surfaces cross, painting by depth
 //! shows the wrong one in front for a few pixels. The plots are by uPlot (MIT, `assets/uplot`).
 
+mod cast;
 mod decimator;
+mod film;
+mod frame;
 mod page;
+mod shape;
 mod svg;
 mod usd;
+
+pub use film::{Film, Series};
+pub use shape::capsule;
 
 use crate::error::Error;
 use crate::run::{Summary, World};
 use crate::scene::{Engine, Scene};
+use cast::Cast;
 use cpu_time::ProcessTime;
 use decimator::Decimator;
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use frame::Frame;
 use std::time::{Duration, Instant};
 
 /// Largest number of frames of a page.
@@ -42,6 +50,8 @@ pub const FRAMES: usize = 600;
 pub const NUMBERS: usize = 2_000_000;
 /// Largest number of nodes of a cable in a frame.
 pub const NODES: usize = 201;
+/// Numbers of a node: arc length, position, slope, tension there and halfway to the next.
+const NODE: usize = 9;
 /// Numbers of a stripe at a node.
 const STRIPE: usize = 4;
 /// Largest number of rows of a probe in a page.
@@ -55,20 +65,13 @@ pub struct Recorder {
     wall: Duration,
 }
 
-/// The cables and bodies at a time in s; numbers in the order that `data.js` reads.
-#[derive(Default)]
-struct Frame {
-    time: f64,
-    numbers: Vec<f32>,
-}
-
 impl Recorder {
     /// Returns an empty recorder.
     pub fn new(scene: &Scene) -> Self {
-        let of_node = if is_twisted(scene) { 9 + STRIPE } else { 9 };
+        let of_node = if cast::is_twisted(scene) { NODE + STRIPE } else { NODE };
         let nodes: usize = scene.cables.iter().map(|cable| 2 + of_node * (cable.elements + 1).min(NODES)).sum();
         // a few contacts per element, if there are any
-        let contacts = if touches(scene) { 6 * nodes / 9 } else { 0 };
+        let contacts = if cast::touches(scene) { 6 * nodes / 9 } else { 0 };
         let limit = (NUMBERS / (nodes + contacts + 7 * scene.bodies.len()).max(1)).clamp(2, FRAMES);
         Recorder {
             frames: Decimator::new(limit),
@@ -126,117 +129,11 @@ impl Recorder {
 
     /// Returns the motion as an animated SVG.
     pub fn svg(&self, world: &World) -> String {
-        svg::write(world.scene(), self.frames.kept())
+        svg::write(&Cast::of(world.scene()), self.frames.kept())
     }
 
     /// Returns the motion as OpenUSD.
     pub fn usd(&self, world: &World) -> String {
         usd::write(world.scene(), self.frames.kept())
     }
-}
-
-impl Frame {
-    fn of(world: &World) -> Result<Self, Error> {
-        let mut numbers = Vec::new();
-        numbers.push(world.pieces().len() as f32);
-        let mut stripes = Vec::new();
-        for (cable, piece) in world.cables().into_iter().zip(world.pieces()) {
-            let mut places = cable.node_arc_lengths();
-            if places.len() > NODES {
-                let step = cable.length() / (NODES - 1) as f64;
-                places = (0..NODES).map(|k| (k as f64 * step).min(cable.length())).collect();
-            }
-            numbers.extend([piece.cable as f32, places.len() as f32]);
-            for (i, &s) in places.iter().enumerate() {
-                let here = cable.sample(s)?;
-                let next = places.get(i + 1).map(|next| cable.sample(0.5 * (s + next))).transpose()?;
-                numbers.push((piece.from + s) as f32);
-                numbers.extend(here.position.iter().chain(here.slope.iter()).map(|&x| x as f32));
-                numbers.extend([here.tension as f32, next.unwrap_or(here).tension as f32]);
-            }
-            if is_twisted(world.scene()) {
-                for (direction, &s) in cable.stripe(&places)?.into_iter().zip(&places) {
-                    let rate = cable.torsion_at(s)?.map_or(0.0, |reading| reading.twist_rate);
-                    stripes.extend(direction.unwrap_or_default().iter().chain(&[rate]).map(|&x| x as f32));
-                }
-            }
-        }
-        for i in 0..world.scene().bodies.len() {
-            if let Some(body) = world.body(i) {
-                let q = body.rotation;
-                numbers.extend(body.position.iter().chain(&[q.i, q.j, q.k, q.w]).map(|&x| x as f32));
-            }
-        }
-        if touches(world.scene()) {
-            let count = numbers.len();
-            numbers.push(0.0);
-            for cable in world.cables() {
-                let on_bodies = cable
-                    .contacts()
-                    .map(|touch| (touch.arc_length, touch.normal * touch.normal_force + touch.friction));
-                let on_cables = cable
-                    .cable_contacts()
-                    .map(|touch| (touch.arc_length, touch.normal * touch.normal_force + touch.friction));
-                for (s, force) in on_bodies.chain(on_cables) {
-                    let place = cable.sample(s)?.position;
-                    numbers.extend(place.iter().chain(force.iter()).map(|&x| x as f32));
-                    numbers[count] += 1.0;
-                }
-            }
-        }
-        numbers.extend(stripes);
-        Ok(Frame { time: world.time(), numbers })
-    }
-}
-
-impl Frame {
-    /// Returns where the numbers of the pieces of each cable begin, and where those of the bodies do.
-    fn places(&self, cables: usize) -> (Vec<Vec<usize>>, usize) {
-        let (mut pieces, mut at) = (vec![Vec::new(); cables], 1);
-        for _ in 0..self.numbers[0] as usize {
-            pieces[self.numbers[at] as usize].push(at + 1);
-            at += 2 + 9 * self.numbers[at + 1] as usize;
-        }
-        (pieces, at)
-    }
-
-    /// Returns the numbers of the nodes of the piece that begins at a place: arc length, position, slope, tension there and halfway to
-    /// the next.
-    fn nodes(&self, at: usize) -> impl ExactSizeIterator<Item = &[f32]> {
-        self.numbers[at + 1..][..9 * self.numbers[at] as usize].chunks_exact(9)
-    }
-
-    /// Returns the vertices of the cubic Bezier pieces of the elements of the piece that begins at a place.
-    fn vertices(&self, at: usize) -> Vec<[f32; 3]> {
-        let nodes: Vec<&[f32]> = self.nodes(at).collect();
-        let mut points = Vec::with_capacity(3 * nodes.len());
-        for (i, here) in nodes.iter().enumerate() {
-            let beside = |share: f32| [1, 2, 3].map(|k| here[k] + share * here[k + 3]);
-            if i > 0 {
-                points.push(beside(-(here[0] - nodes[i - 1][0]) / 3.0));
-            }
-            points.push(beside(0.0));
-            if let Some(next) = nodes.get(i + 1) {
-                points.push(beside((next[0] - here[0]) / 3.0));
-            }
-        }
-        points
-    }
-
-    /// Returns position and rotation of a body, of which the bodies begin at a place.
-    fn pose(&self, bodies: usize, body: usize) -> Isometry3<f32> {
-        let x = &self.numbers[bodies + 7 * body..][..7];
-        let rotation = UnitQuaternion::new_unchecked(Quaternion::new(x[6], x[3], x[4], x[5]));
-        Isometry3::from_parts(Translation3::new(x[0], x[1], x[2]), rotation)
-    }
-}
-
-/// Returns whether frames have stripes.
-fn is_twisted(scene: &Scene) -> bool {
-    scene.cables.iter().any(|cable| cable.effects.torsion.is_some())
-}
-
-/// Returns whether frames have contacts.
-fn touches(scene: &Scene) -> bool {
-    scene.cables.iter().any(|cable| cable.effects.contact.is_some())
 }

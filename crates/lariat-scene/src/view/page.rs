@@ -1,17 +1,16 @@
 //! The page as text: the template of `assets/view` with its data.
 //!
-//! Frames are a sequence of little-endian `f32` in base64: for each frame the number of parts of cables, for each part its cable, the
-//! number of nodes and for each node arc length on the cable, position, slope, tension there and half-way to the next node; then for each body position and quaternion; if cables can touch, the number of contacts,
-//! and for each the place on the cable and the force on it; if a cable has torsion, for each node of all parts the direction of
-//! its stripe, zero where there is none, and the twist per length. Times and
-//! rows of probes are `f64`.
+//! Numbers of [frames](super::frame) are little-endian `f32` in base64, one frame after the other. Times and rows of probes are `f64`.
 
-use super::{Decimator, Frame};
+use super::cast::Cast;
+use super::decimator::Decimator;
+use super::frame::Frame;
 use crate::run::{Summary, columns};
 use crate::scene::body::BodyShape;
 use crate::scene::{AttachmentScene, BodyLoadScene, Scene, Target};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 const PAGE: &str = include_str!("../../assets/view/page.html");
@@ -35,41 +34,74 @@ const SCRIPT: &str = concat!(
     include_str!("../../assets/view/page.js"),
 );
 
-/// Returns the whole page.
+/// Returns the page of a run.
 pub fn write(scene: &Scene, summary: &Summary, frames: &[Frame], probes: &[Decimator<Vec<f64>>]) -> String {
-    let rows = |probe: &Decimator<Vec<f64>>| base64(probe.rows().flatten().flat_map(|x| x.to_le_bytes()));
-    let data = json!({
-        "name": scene.name,
-        "summary": summary,
-        "gravity": scene.gravity.as_slice(),
-        "cables": scene.cables[..scene.parts.len()].iter().map(|c| json!({ "name": c.name, "diameter": c.section.diameter })).collect::<Vec<_>>(),
-        "bodies": scene.bodies.iter().map(|b| json!({
-            "name": b.name,
-            "kind": b.kind.name(),
-            "shape": shape(&b.shape),
-        })).collect::<Vec<_>>(),
+    let cast = Cast::of(scene);
+    let marks = json!({
         "attachments": scene.attachments.iter().filter(|a| !at_sheave(scene, a)).map(|a| json!({
             "cable": scene.whole(a.cable), "at": on_page(scene, a.cable, a.arc_length), "world": a.body.is_none(), "clamp": a.clamp,
         })).collect::<Vec<_>>(),
         // the first node of the part behind it
         "sheaves": scene.sheaves.iter().map(|s| s.cables[1]).collect::<Vec<_>>(),
-        "contacts": super::touches(scene),
-        "stripes": super::is_twisted(scene),
         "junctions": scene.junctions.iter().map(|j| j.points[0]).map(|(part, s)| json!({
             "cable": scene.whole(part), "at": on_page(scene, part, s),
         })).collect::<Vec<_>>(),
+        "loads": loads(scene, summary.statics.is_some()),
+    });
+    let probes = scene.probes.iter().zip(probes).map(|(probe, recorded)| Plot {
+        name: &probe.name,
+        about: about(scene, probe.target),
+        columns: columns(probe.target),
+        rows: recorded.rows().flatten().copied().collect(),
+    });
+    filled(&cast, &json!(summary), &marks, frames, &probes.collect::<Vec<_>>())
+}
+
+/// A probe on a page.
+pub struct Plot<'a, C = &'static [&'static str]> {
+    pub name: &'a str,
+    /// What it reads, in words.
+    pub about: String,
+    /// What a row holds; the first is the time in s.
+    pub columns: C,
+    /// All rows, one after the other.
+    pub rows: Vec<f64>,
+}
+
+/// Returns the template with this content; `marks` are what is drawn beside cables and bodies.
+pub fn filled<C: Serialize>(
+    cast: &Cast,
+    summary: &Value,
+    marks: &Value,
+    frames: &[Frame],
+    probes: &[Plot<'_, C>],
+) -> String {
+    let mut data = json!({
+        "name": cast.name,
+        "summary": summary,
+        "gravity": cast.gravity.as_slice(),
+        "cables": cast.cables.iter().map(|c| json!({ "name": c.name, "diameter": c.diameter })).collect::<Vec<_>>(),
+        "bodies": cast.bodies.iter().map(|b| json!({
+            "name": b.name,
+            "kind": b.kind.name(),
+            "shape": shape(&b.shape),
+        })).collect::<Vec<_>>(),
+        "contacts": cast.touches,
+        "stripes": cast.is_twisted,
         "times": base64(frames.iter().flat_map(|f| f.time.to_le_bytes())),
         "frames": base64(frames.iter().flat_map(|f| &f.numbers).flat_map(|x| x.to_le_bytes())),
-        "loads": loads(scene, summary.statics.is_some()),
-        "probes": scene.probes.iter().zip(probes).map(|(p, recorded)| json!({
-            "name": p.name, "about": about(scene, p.target), "columns": columns(p.target), "rows": rows(recorded),
+        "probes": probes.iter().map(|p| json!({
+            "name": p.name, "about": p.about, "columns": p.columns, "rows": base64(p.rows.iter().flat_map(|x| x.to_le_bytes())),
         })).collect::<Vec<_>>(),
     });
+    for (name, mark) in marks.as_object().into_iter().flatten() {
+        data[name] = mark.clone();
+    }
     // no text of the scene may end the script element
     let data = data.to_string().replace('<', "\\u003c");
     // text and marks of the template alternate
     let part = |(i, text): (usize, &str)| match text {
-        "TITLE" if i % 2 == 1 => escaped(&scene.name),
+        "TITLE" if i % 2 == 1 => escaped(&cast.name),
         "STYLE" if i % 2 == 1 => STYLE.to_string(),
         "DATA" if i % 2 == 1 => data.clone(),
         "UPLOT" if i % 2 == 1 => UPLOT.to_string(),

@@ -4,8 +4,8 @@
 //! [`LONGEST`] seconds. The view is from afar, so that equal lengths look equal. Cables are the cubics of their elements, coloured by
 //! their largest tension; bodies are outlines, from far to near as they start.
 
-use super::Frame;
-use crate::scene::Scene;
+use super::cast::Cast;
+use super::frame::Frame;
 use crate::scene::body::{BodyKind, BodyShape};
 use nalgebra::{Isometry3, Point3, Vector2, Vector3};
 use std::fmt::Write as _;
@@ -28,16 +28,16 @@ const ROUND: usize = 24;
 const COLOURS: [[f32; 3]; 3] = [[91.0, 75.0, 219.0], [217.0, 72.0, 110.0], [232.0, 180.0, 34.0]];
 
 /// Returns the file.
-pub fn write(scene: &Scene, frames: &[Frame]) -> String {
-    let frames = chosen(scene, frames);
-    let shown: Vec<Shown> = frames.iter().map(|frame| Shown::of(scene, frame)).collect();
-    let paper = Paper::of(scene, &shown);
+pub fn write(cast: &Cast, frames: &[Frame]) -> String {
+    let frames = chosen(cast, frames);
+    let shown: Vec<Shown> = frames.iter().map(|frame| Shown::of(cast, frame)).collect();
+    let paper = Paper::of(cast, &shown);
     let time = frames.last().map_or(0.0, |frame| frame.time).clamp(SHORTEST, LONGEST);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {0:.0}\" width=\"{WIDTH}\" height=\"{0:.0}\">\n\
          <title>{1}</title>\n<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#fbfbfc\"/>\n",
         paper.height,
-        super::page::escaped(&scene.name)
+        super::page::escaped(&cast.name)
     );
     let animated = |text: &mut String, name: &str, values: Vec<String>| {
         if values.windows(2).any(|pair| pair[0] != pair[1]) {
@@ -48,15 +48,15 @@ pub fn write(scene: &Scene, frames: &[Frame]) -> String {
             );
         }
     };
-    let mut order: Vec<usize> = (0..scene.bodies.len()).collect();
+    let mut order: Vec<usize> = (0..cast.bodies.len()).collect();
     let depth =
         |body: &usize| shown.first().map_or(0.0, |first| first.poses[*body].translation.vector.dot(&paper.towards));
     order.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
     for body in order {
         let outlines: Vec<String> =
-            shown.iter().map(|shown| paper.outline(&scene.bodies[body].shape, &shown.poses[body])).collect();
+            shown.iter().map(|shown| paper.outline(&cast.bodies[body].shape, &shown.poses[body])).collect();
         let Some(first) = outlines.first().filter(|first| !first.is_empty()) else { continue };
-        let fill = match scene.bodies[body].kind {
+        let fill = match cast.bodies[body].kind {
             BodyKind::Dynamic => "#9fb8d8",
             BodyKind::Fixed => "#d9d9de",
             BodyKind::Kinematic => "#b9d3bd",
@@ -68,7 +68,7 @@ pub fn write(scene: &Scene, frames: &[Frame]) -> String {
         animated(&mut text, "d", outlines);
         text.push_str("</path>\n");
     }
-    for cable in 0..scene.parts.len() {
+    for cable in 0..cast.cables.len() {
         let lines: Vec<String> = shown.iter().map(|shown| paper.line(&shown.cables[cable])).collect();
         let colours: Vec<String> = shown.iter().map(|shown| paper.colour(shown.tensions[cable])).collect();
         let (Some(line), Some(colour)) = (lines.first(), colours.first()) else { continue };
@@ -85,10 +85,9 @@ pub fn write(scene: &Scene, frames: &[Frame]) -> String {
 }
 
 /// Returns evenly spaced frames, as many as the size of the file allows.
-fn chosen<'a>(scene: &Scene, frames: &'a [Frame]) -> Vec<&'a Frame> {
-    let elements: usize = scene.cables.iter().map(|cable| cable.elements.min(super::NODES)).sum();
+fn chosen<'a>(cast: &Cast, frames: &'a [Frame]) -> Vec<&'a Frame> {
     // 13 letters of each of three vertices of an element, and of each corner of a body
-    let letters = 13 * (3 * elements + ROUND * scene.bodies.len()).max(1);
+    let letters = 13 * (3 * cast.elements + ROUND * cast.bodies.len()).max(1);
     let most = (LETTERS / letters).clamp(2, PICTURES);
     let every = frames.len().div_ceil(most).max(1);
     frames.iter().step_by(every).collect()
@@ -104,8 +103,8 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(scene: &Scene, frame: &Frame) -> Self {
-        let (pieces, bodies) = frame.places(scene.parts.len());
+    fn of(cast: &Cast, frame: &Frame) -> Self {
+        let (pieces, bodies) = frame.places(cast.cables.len());
         let largest = |pieces: &Vec<usize>| {
             let tensions = pieces.iter().flat_map(|&at| frame.nodes(at)).map(|node| node[7]);
             tensions.filter(|t| t.is_finite()).fold(0.0, f32::max)
@@ -113,7 +112,7 @@ impl Shown {
         Shown {
             tensions: pieces.iter().map(largest).collect(),
             cables: pieces.iter().map(|pieces| pieces.iter().map(|&at| frame.vertices(at)).collect()).collect(),
-            poses: (0..scene.bodies.len()).map(|body| frame.pose(bodies, body)).collect(),
+            poses: (0..cast.bodies.len()).map(|body| frame.pose(bodies, body)).collect(),
         }
     }
 }
@@ -132,8 +131,8 @@ struct Paper {
 }
 
 impl Paper {
-    fn of(scene: &Scene, shown: &[Shown]) -> Self {
-        let gravity = scene.gravity.cast::<f32>();
+    fn of(cast: &Cast, shown: &[Shown]) -> Self {
+        let gravity = cast.gravity.cast::<f32>();
         let axis = if gravity == Vector3::zeros() { 1 } else { gravity.iamax() };
         let up = Vector3::ith(axis, if gravity[axis] > 0.0 { -1.0 } else { 1.0 });
         let level = Vector3::ith(usize::from(axis == 0), 1.0);
@@ -154,7 +153,7 @@ impl Paper {
         let (mut low, mut high) = (Vector2::repeat(f32::INFINITY), Vector2::repeat(f32::NEG_INFINITY));
         for shown in shown {
             let bodies =
-                scene.bodies.iter().zip(&shown.poses).flat_map(|(body, pose)| corners(&body.shape, pose, &paper.axes));
+                cast.bodies.iter().zip(&shown.poses).flat_map(|(body, pose)| corners(&body.shape, pose, &paper.axes));
             let cables = shown.cables.iter().flatten().flatten().map(|p| Vector3::from(*p));
             for p in bodies.chain(cables).map(|p| paper.flat(&p)).filter(|p| p.iter().all(|x| x.is_finite())) {
                 (low, high) = (low.inf(&p), high.sup(&p));

@@ -7,7 +7,7 @@
 //! The prims of cables carry their stiffness as custom attributes `lariat:*`: EA in N, EI in N m^2, mass per length in kg/m, unstretched
 //! length in m.
 
-use super::Frame;
+use super::frame::Frame;
 use crate::scene::body::BodyShape;
 use crate::scene::{CableScene, Scene};
 use std::fmt::Write as _;

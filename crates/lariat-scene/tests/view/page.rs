@@ -21,11 +21,14 @@ pub fn page_of(name: &str, sets: &[&str]) -> tempfile::TempDir {
 }
 
 /// The data of a page.
-struct Data(serde_json::Value);
+pub struct Data(pub serde_json::Value);
 
 impl Data {
     fn read(folder: &Path) -> Data {
-        let text = fs::read_to_string(folder.join("view.html")).unwrap();
+        Self::of(&fs::read_to_string(folder.join("view.html")).unwrap())
+    }
+
+    pub fn of(text: &str) -> Data {
         let (_, rest) = text.split_once("<script type=\"application/json\" id=\"data\">").unwrap();
         Data(serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap())
     }
@@ -34,15 +37,15 @@ impl Data {
         base64::engine::general_purpose::STANDARD.decode(text.as_str().unwrap()).unwrap()
     }
 
-    fn doubles(text: &serde_json::Value) -> Vec<f64> {
+    pub fn doubles(text: &serde_json::Value) -> Vec<f64> {
         Self::bytes(text).chunks_exact(8).map(|x| f64::from_le_bytes(x.try_into().unwrap())).collect()
     }
 
-    fn times(&self) -> Vec<f64> {
+    pub fn times(&self) -> Vec<f64> {
         Self::doubles(&self.0["times"])
     }
 
-    fn frames(&self) -> Vec<f32> {
+    pub fn frames(&self) -> Vec<f32> {
         Self::bytes(&self.0["frames"]).chunks_exact(4).map(|x| f32::from_le_bytes(x.try_into().unwrap())).collect()
     }
 }
