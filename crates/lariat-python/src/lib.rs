@@ -7,6 +7,7 @@
 //! | `cosimulation` | `CoSimulation`: a cable on bodies that another program moves |
 //! | `world` | `World`: rapier3d with cables on its bodies |
 //! | `scene` | runs of scene files and sweeps over them |
+//! | `film` | the pages of what a program steps itself |
 //! | `convert`, `error`, `shared`, `saved` | arguments, exceptions, objects that several threads use, objects as bytes |
 //!
 //! What needs no Rust (exceptions, results as named tuples, effects, tables) is in `python/lariat`.
@@ -18,6 +19,7 @@ mod cable;
 mod convert;
 mod cosimulation;
 mod error;
+mod film;
 mod integrator;
 mod saved;
 mod scene;
@@ -32,6 +34,8 @@ mod _lariat {
     use crate::cable::{Cable, step_all, step_together};
     #[pymodule_export]
     use crate::cosimulation::CoSimulation;
+    #[pymodule_export]
+    use crate::film::Film;
     #[pymodule_export]
     use crate::integrator::{Integrator, integrators, recommended_elements, rope_kinds};
     #[pymodule_export]

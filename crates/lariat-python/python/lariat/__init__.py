@@ -31,6 +31,7 @@ from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, Gra
 from lariat.errors import Error
 from lariat.exchange import EndMotion, Exchange, Exchanged
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
+from lariat.recording import Recording, Track, record
 from lariat.reel import Reel
 from lariat.scenes import Probe, Run, import_mjcf, keys, load, rules, run, statics
 from lariat.sweeps import Sweep, sweep
@@ -58,6 +59,7 @@ __all__ = [
     "Obstacle",
     "PrismaticJoint",
     "Probe",
+    "Recording",
     "Reel",
     "RestPiece",
     "RestShape",
@@ -71,6 +73,7 @@ __all__ = [
     "SpringJoint",
     "Sweep",
     "Torsion",
+    "Track",
     "World",
     "__version__",
     "bodies",
@@ -81,6 +84,7 @@ __all__ = [
     "keys",
     "load",
     "recommended_elements",
+    "record",
     "results",
     "rope_kinds",
     "rules",

@@ -6,7 +6,9 @@ use crate::error::{Raise, raise};
 use lariat_ancf::contact::{Ball, Capsule, Cuboid, Cylinder, HalfSpace, Obstacle, RigidMotion, Surface, Touch};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Contact, Error, Vector3};
-use nalgebra::{Quaternion, UnitQuaternion};
+use lariat_scene::scene::body::BodyShape;
+use lariat_scene::view::capsule;
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -41,6 +43,30 @@ struct Parameters {
 
 fn invalid(what: &str, value: f64, expected: &'static str) -> Error {
     Error::InvalidValue { cable: None, what: what.to_string(), value, expected }
+}
+
+impl Laid {
+    /// Returns where it is at a time in s, and what it looks like.
+    pub fn look(&self, time: f64) -> (Isometry3<f64>, BodyShape) {
+        let Parameters { shape, size, position, rotation, velocity, angular_velocity, .. } = &self.parameters;
+        let passed = time - self.time;
+        let place = Vector3::from(*position) + passed * Vector3::from(*velocity);
+        let [x, y, z, w] = *rotation;
+        let turned = UnitQuaternion::from_scaled_axis(passed * Vector3::from(*angular_velocity))
+            * UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+        let at = Isometry3::from_parts(place.into(), turned);
+        match (shape.as_str(), &size[..]) {
+            ("half_space", &[x, y, z]) => (at, BodyShape::Plane(Vector3::new(x, y, z).normalize())),
+            ("ball", &[radius]) => (at, BodyShape::Ball(radius)),
+            ("cylinder", &[half_height, radius]) => (at, BodyShape::Cylinder([half_height, radius])),
+            ("cuboid", &[x, y, z]) => (at, BodyShape::Cuboid(Vector3::new(x, y, z))),
+            ("capsule", &[ax, ay, az, bx, by, bz, radius]) => {
+                let (own, shape) = capsule([Vector3::new(ax, ay, az), Vector3::new(bx, by, bz)], radius);
+                (at * own, shape)
+            }
+            _ => (at, BodyShape::None),
+        }
+    }
 }
 
 impl Parameters {

@@ -22,6 +22,17 @@ pub struct Names {
     sheaves: Vec<String>,
 }
 
+impl Contents {
+    /// Returns what its scene calls a body, else its number in the world.
+    pub fn body_names(&self) -> impl Iterator<Item = (RigidBodyHandle, String)> {
+        let there = self.bodies.iter().filter(|body| self.world.bodies.contains(**body)).enumerate();
+        there.map(|(number, body)| {
+            let own = self.names.bodies.iter().find(|(_, named)| named == body).map(|(name, _)| name.clone());
+            (*body, own.unwrap_or_else(|| format!("body {number}")))
+        })
+    }
+}
+
 /// An attachment or a sheave: its number, or its name in the scene.
 pub enum Which {
     Number(usize),
@@ -89,6 +100,11 @@ impl World {
             found.ok_or_else(|| unnamed("NoCableError", "cable", name, all().map(|(_, cable)| cable.name())))
         });
         Ok(self.cable(found.map_err(raise)?))
+    }
+
+    /// Names of the bodies, in the order of their handles: those of the scene, else their numbers.
+    fn _body_names(&self, py: Python<'_>) -> Vec<String> {
+        self.0.with(py, |contents| contents.body_names().map(|(_, name)| name).collect())
     }
 
     /// The body that the scene calls by a name.
