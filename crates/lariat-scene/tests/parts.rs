@@ -25,7 +25,7 @@ fn a_program_that_steps_a_scene_goes_where_its_run_goes() {
         run.start(Purpose::Run).expect("starts");
         for k in 0..STEPS {
             let (from, to) = (k as f64 * scene.dt, (k + 1) as f64 * scene.dt);
-            parts.script.set(&mut parts.world, &parts.cables, from, to);
+            parts.script.set(&mut parts.world, from, to);
             parts.cables.step(&mut parts.world).expect("steps");
             run.advance(to).expect("advances");
         }

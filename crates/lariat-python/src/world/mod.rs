@@ -129,7 +129,7 @@ impl World {
             let mut lines = contents.of_start();
             let Contents { world, set, time, script, .. } = contents;
             let end = *time + f64::from(world.integration_parameters.dt);
-            script.set(world, set, *time, end);
+            script.set(world, *time, end);
             let outcome = set.step(world);
             if matches!(outcome, Ok(()) | Err(Error::StepRefused { .. })) {
                 *time = end;

@@ -21,6 +21,7 @@ use crate::body::record::Records;
 use crate::convert;
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
+use crate::water::BodiesInWater;
 use attachment::Attachment;
 use junction::Junction;
 use lariat_ancf::Cable;
@@ -92,6 +93,9 @@ pub(crate) struct Contents {
     #[serde(default)]
     pub drums: Vec<Wound>,
     pub records: Records,
+    /// The water that bodies are in.
+    #[serde(default)]
+    pub water: Option<Box<BodiesInWater>>,
     /// The mark of the world that the attachments belong to.
     #[serde(default)]
     pub mark: Option<WorldMark>,
@@ -112,11 +116,13 @@ impl Contents {
         self.attachments.values().map(|a| a.body).chain(self.drums.iter().map(|wound| wound.drum.body))
     }
 
-    /// Adds a cable; its clock is set to that of the others.
+    /// Adds a cable; its clock is set to that of the others, or of the water.
     pub fn insert(&mut self, mut cable: Cable) -> CableHandle {
         if let Some(other) = self.cables.values().next() {
             // the time of a cable is always finite, so this cannot fail
             let _ = cable.set_time(other.cable.time());
+        } else if let Some(water) = &self.water {
+            let _ = cable.set_time(water.time());
         }
         let (start, end) = (cable.node_position(0), cable.node_position(cable.nodes() - 1));
         let sort_key = [start.x, start.y, start.z, end.x, end.y, end.z, cable.length()];

@@ -8,6 +8,7 @@
 //! | [`contact`] | what cables may touch |
 //! | [`reel`] | drums and sheaves |
 //! | [`step`] | host steps |
+//! | [`water`] | the water that bodies are in |
 //! | [`read`] | events, totals and warnings |
 //!
 //! [`rope`] describes the usual rope, which [`CableSet::add_rope`] makes.
@@ -19,6 +20,7 @@ mod reel;
 pub(crate) mod rope;
 mod slack;
 mod step;
+mod water;
 
 use crate::contents::Contents;
 use crate::contents::attachment::AttachmentKind;

@@ -24,6 +24,7 @@
 //! | [`budget`], [`settings`] | what a host step may cost, and how a set steps |
 //! | [`energy`] | the energy balance of watched cables |
 //! | [`refused`] | bodies of an island that cannot step |
+//! | [`water`] | the forces of water on bodies |
 
 pub(crate) mod apply;
 mod breaks;
@@ -45,6 +46,7 @@ pub(crate) mod sleep;
 mod stiffness;
 pub(crate) mod substepping;
 mod waking;
+mod water;
 
 use crate::body;
 use crate::body::prescribed_motion::PrescribedMotions;
@@ -114,6 +116,7 @@ pub(crate) fn begin(
             host.motions.add_others(&contents.records, world, f64::from(dt));
         }
         world.integration_parameters.dt = dt / host.steps as Real;
+        water::begin(contents);
     }
     Ok(host)
 }
@@ -144,9 +147,14 @@ pub(crate) fn predict_next(
     reels::remesh(contents)?;
     loop {
         world.integration_parameters.dt = host.lengths().1;
+        revert_pending(stepper, world);
+        water::put_on(contents, world, settings, host);
         host.motions.advance(&mut contents.records, world, host.share());
         let outcome = predict_islands(stepper, contents, world, settings, host);
         host.failed = outcome.is_err();
+        if !matches!(outcome, Ok(Predicted::Whole)) {
+            water::take_off(contents, world, false);
+        }
         match outcome? {
             Predicted::Whole => return Ok(()),
             Predicted::Turned(parts) => host.refine(parts),
@@ -179,6 +187,7 @@ pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut
         host.motions.restore(world);
     } else if host.dt > 0.0 {
         host.motions.remember(&mut contents.records);
+        water::finish(contents, f64::from(host.dt));
     }
     stepper.motions = host.motions;
 }
@@ -192,6 +201,16 @@ enum Predicted {
     Overloaded(f64),
 }
 
+/// Reverts what was predicted, and never reconciled.
+fn revert_pending(stepper: &mut Stepper, world: &mut PhysicsWorld) {
+    if core::mem::take(&mut stepper.pending) {
+        for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
+            prediction.held.release(world);
+            apply::revert_bodies(world, island, prediction);
+        }
+    }
+}
+
 /// Predicts the next Rapier step of all islands.
 fn predict_islands(
     stepper: &mut Stepper,
@@ -200,13 +219,6 @@ fn predict_islands(
     settings: &Settings,
     host: &HostStep,
 ) -> Result<Predicted, Error> {
-    if core::mem::take(&mut stepper.pending) {
-        // predicted, and never reconciled
-        for (island, prediction) in stepper.islands.list.iter().zip(&mut stepper.predictions) {
-            prediction.held.release(world);
-            apply::revert_bodies(world, island, prediction);
-        }
-    }
     attach::end_lost(contents, world, &mut stepper.events)?;
     contents.follow_gravity(world)?;
     contents.held_bodies().for_each(|body| body::give_mass(world, body));
@@ -400,4 +412,5 @@ pub(crate) fn reconcile(stepper: &mut Stepper, contents: &mut Contents, world: &
         }
         prediction.applied.clear();
     }
+    water::take_off(contents, world, true);
 }

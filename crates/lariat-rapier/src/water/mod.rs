@@ -13,12 +13,9 @@
 //! let mut water = BodiesInWater::new(Water::new(1000.0).with_surface(Surface::at(0.0, Vector3::new(0.0, -9.81, 0.0))))?;
 //! water.insert(&mut world, float, Immersed::with_drag_area([0.06; 3]))?;
 //! let mut cables = CableSet::new();
-//! for step in 0..600 {
-//!     let dt = 1.0 / 60.0;
-//!     world.bodies[float].reset_forces(true); // yours and those of the last step
-//!     world.bodies[float].reset_torques(true);
-//!     water.apply(&mut world, &cables, f64::from(step) * dt, dt);
-//!     cables.step(&mut world)?;
+//! cables.set_water(water);
+//! for _ in 0..600 {
+//!     cables.step(&mut world)?; // with the forces of the water, beside yours
 //! }
 //! assert!(world.bodies[float].translation().y.abs() < 0.01); // half of it is below
 //! # Ok::<(), lariat_rapier::Error>(())
@@ -38,8 +35,8 @@
 //! Krylov) act at the centroid of V_s, drag at that of V. a has no weight, and is part of the mass
 //! of the body in Rapier.
 //!
-//! *Over a host step* all of it is one constant force and moment: the mean buoyancy over the rise r
-//! of the step at the attitude in its middle, and the mean drag of [`drag`],
+//! *Over a Rapier step* all of it is one constant force and moment: the mean buoyancy over the rise
+//! r of the step at the attitude in its middle, and the mean drag of [`drag`],
 //!
 //! ```text
 //! r = h v + h^2/2m (f + rho g V^)        V^ = (V_s d(0) - V_s d(r))/r        d: depth of the centroid of V_s
@@ -64,6 +61,9 @@
 //! - What cables, contacts and joints do to a body is not known before the step: drag expects of it
 //!   what it did in the last two. The error of a step is of second order where that is smooth.
 //!
+//! - In still water a body sleeps as Rapier lets it, but not while a point of it is faster than
+//!   [`Settings::sleep_speed`](crate::Settings::sleep_speed).
+//!
 //! # References
 //!
 //! Archimedes; Morison et al. 1950; Faltinsen 1990, ch. 3 (long waves: Froude and Krylov with added
@@ -77,7 +77,11 @@
 pub mod bodies;
 pub mod drag;
 pub mod hull;
+mod immersed;
+mod member;
 
-pub use bodies::{BodiesInWater, Immersed};
+pub use bodies::BodiesInWater;
 pub use hull::Hull;
+pub use immersed::Immersed;
 pub use lariat_ancf::{Surface, Water, Wave};
+pub use member::WaterForce;

@@ -38,11 +38,10 @@ pub struct Place {
 }
 
 impl Physics {
-    /// Returns the places of the bodies that the scene loads, or that are in water, with the forces of the coming step.
+    /// Returns the places of the bodies that the scene loads, with the forces of the coming step.
     pub(super) fn places(&self, scene: &Scene) -> Vec<(usize, Place)> {
         let mut places: Vec<(usize, Place)> = Vec::new();
-        let in_water = scene.bodies.iter().enumerate().filter(|(_, body)| body.water.is_some()).map(|(index, _)| index);
-        for index in scene.body_loads.iter().map(|load| load.body).chain(in_water) {
+        for index in scene.body_loads.iter().map(|load| load.body) {
             if places.iter().any(|(body, _)| *body == index) {
                 continue;
             }
@@ -82,6 +81,7 @@ impl Physics {
             let place = origin + attachment.anchor.map_or(0.0, |anchor| anchor.norm());
             on_body[body].1 += reading.force.norm() * place * f64::from(RAPIER_STEPS) * f64::from(f32::EPSILON);
         }
+        let water = |body| self.cables.water().and_then(|water| water.work(body)).unwrap_or(0.0);
         for (index, _) in scene.bodies.iter().enumerate().filter(|(_, body)| body.kind == BodyKind::Dynamic) {
             let handle = self.bodies[index];
             let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
@@ -94,7 +94,7 @@ impl Physics {
             terms.push(BodyTerms {
                 kinetic: rigid.kinetic_energy(),
                 gravity: -rigid.mass * scene.gravity.dot(&rigid.position),
-                loads: self.load_work[index],
+                loads: self.load_work[index] + water(handle),
                 cables,
                 in_law: wound
                     || scene.attachments.iter().any(|a| a.body == Some(index) && self.has_law(self.handles[a.cable])),

@@ -134,8 +134,8 @@ impl Physics {
         let mut cables = CableSet::new();
         cables.settings.watch = false;
         let (rapier_steps, load_work) = (RAPIER_STEPS, vec![0.0; bodies.len()]);
-        let mut script = Script::new(scene, &bodies);
-        script.water = water::fill(&mut world, scene, &bodies)?;
+        let script = Script::new(scene, &bodies);
+        cables.set_water(water::fill(&mut world, scene, &bodies)?);
         Ok(Physics {
             world,
             bodies,
@@ -273,7 +273,7 @@ impl Physics {
         let steps = (share - 1e-3).ceil().clamp(1.0, f64::from(self.rapier_steps)) as u32;
         self.cables.settings.rapier_steps = steps;
         self.world.integration_parameters.dt = dt;
-        self.script.set(&mut self.world, &self.cables, from, to);
+        self.script.set(&mut self.world, from, to);
         let before = self.places(scene);
         self.cables.step(&mut self.world).map_err(|error| self.explain(scene, from, error))?;
         self.add_load_work(scene, &before);

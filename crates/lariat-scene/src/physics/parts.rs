@@ -11,8 +11,8 @@ use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, SheaveHandle};
 
 /// The bodies and cables of a scene at its start, with what the scene calls them.
 ///
-/// A step of the scene is [`Script::set`] with the cables and the times at its ends, and then
-/// [`CableSet::step`] on the bodies.
+/// A step of the scene is [`Script::set`] with the times at its ends, and then [`CableSet::step`] on
+/// the bodies.
 ///
 /// ```
 /// use lariat_scene::{Purpose, Scene, run::Parts};
@@ -44,7 +44,7 @@ use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, SheaveHandle};
 /// let Parts { mut world, mut cables, bodies, mut script, .. } = Parts::of(&scene)?;
 /// let mut time = 0.0;
 /// while time < scene.duration {
-///     script.set(&mut world, &cables, time, time + scene.dt);
+///     script.set(&mut world, time, time + scene.dt);
 ///     cables.step(&mut world).expect("steps");
 ///     time += scene.dt;
 /// }
@@ -55,7 +55,7 @@ use lariat_rapier::{AttachmentHandle, CableHandle, CableSet, SheaveHandle};
 pub struct Parts {
     /// The bodies; their step is the host step of the scene.
     pub world: PhysicsWorld,
-    /// The cables.
+    /// The cables, and the water that bodies are in.
     pub cables: CableSet,
     /// Names of bodies, in the order of the scene.
     pub bodies: Vec<(String, RigidBodyHandle)>,
@@ -66,7 +66,7 @@ pub struct Parts {
     pub attachments: Vec<(String, AttachmentHandle)>,
     /// Names of sheaves, in the order of the scene.
     pub sheaves: Vec<(String, SheaveHandle)>,
-    /// Paths of kinematic bodies, loads on bodies, and water.
+    /// Paths of kinematic bodies, and loads on bodies.
     pub script: Script,
     /// What the start of the scene tells, a line for each kind of warning.
     pub told: Vec<String>,

@@ -1,17 +1,15 @@
 //! What a scene does to its bodies as time goes: kinematic bodies follow their paths, and loads act.
 //!
 //! Loads on bodies have their value at the middle of a step, and act at the point of the body where
-//! it is at the beginning of the step. Forces of water are those of [`lariat_rapier::water`].
+//! it is at the beginning of the step. Water is that of the set of cables.
 
 use super::reading;
 use crate::scene::body::BodyKind;
 use crate::scene::course::Course;
 use crate::scene::{BodyLoadScene, Scene};
-use lariat_rapier::CableSet;
 use lariat_rapier::convert::{to_pose, to_vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
-use lariat_rapier::water::BodiesInWater;
 use serde::{Deserialize, Serialize};
 
 /// What moves and loads the bodies of a scene.
@@ -19,8 +17,6 @@ use serde::{Deserialize, Serialize};
 pub struct Script {
     courses: Vec<(RigidBodyHandle, Course)>,
     loads: Vec<(RigidBodyHandle, BodyLoadScene)>,
-    /// Bodies in water, if there are any.
-    pub(super) water: Option<BodiesInWater>,
     /// Whether loads act in full from the start, whatever their ramps.
     pub(super) full_loads: bool,
 }
@@ -32,7 +28,6 @@ impl Script {
         Script {
             courses: kinematic.map(|(body, handle)| (*handle, body.course.clone())).collect(),
             loads: scene.body_loads.iter().map(|load| (bodies[load.body], load.clone())).collect(),
-            water: None,
             full_loads: false,
         }
     }
@@ -42,18 +37,17 @@ impl Script {
         self.courses.retain(|(_, course)| !course.is_at_rest());
     }
 
-    /// Sets where kinematic bodies go, the loads, and the forces of water, for a step of `cables`
-    /// from one time to another in s. Bodies that were removed are left out.
-    pub fn set(&mut self, world: &mut PhysicsWorld, cables: &CableSet, from: f64, to: f64) {
+    /// Sets where kinematic bodies go, and the loads, for a step from one time to another in s.
+    /// Bodies that were removed are left out.
+    pub fn set(&mut self, world: &mut PhysicsWorld, from: f64, to: f64) {
         for (handle, course) in &self.courses {
             let (position, rotation) = course.pose(to);
             if let Some(body) = world.bodies.get_mut(*handle) {
                 body.set_next_kinematic_position(to_pose(&position, &rotation));
             }
         }
-        let in_water = self.water.iter().flat_map(BodiesInWater::bodies);
-        for handle in self.loads.iter().map(|(handle, _)| *handle).chain(in_water) {
-            let Some(body) = world.bodies.get_mut(handle) else { continue };
+        for (handle, _) in &self.loads {
+            let Some(body) = world.bodies.get_mut(*handle) else { continue };
             body.reset_forces(false);
             body.reset_torques(false);
         }
@@ -64,9 +58,6 @@ impl Script {
             let (force, moment) = load.at(0.5 * (from + to), self.full_loads);
             body.add_force_at_point(to_vector(&force), to_vector(&point), true);
             body.add_torque(to_vector(&moment), true);
-        }
-        if let Some(water) = &mut self.water {
-            water.apply(world, cables, from, to - from);
         }
     }
 }

@@ -69,7 +69,7 @@ impl Physics {
 
     /// Adds the forces of water at rest on the bodies that cables carry.
     fn add_water(&self, scene: &Scene, forces: &mut Vec<BodyForce>) -> Result<(), Error> {
-        let Some(water) = &self.script.water else { return Ok(()) };
+        let Some(water) = self.cables.water() else { return Ok(()) };
         for (index, body) in scene.bodies.iter().enumerate() {
             let handle = self.bodies[index];
             let carried = scene.attachments.iter().any(|attachment| attachment.body == Some(index));

@@ -1,0 +1,370 @@
+//! The force of water on one body over a step.
+
+use super::drag::{mean_drag, midpoint};
+use super::hull::{Hull, Wet};
+use super::immersed::Immersed;
+use crate::convert::{rotation, symmetric_inertia, to_vector, vector};
+use crate::scales::water::{HEIGHT_ROUNDS, SAME_DRAG, SMALL_ANGLE, SMALLEST_RISE, STEP_ROUNDS};
+use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use lariat_ancf::{Sea, Water};
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::math::Vector;
+use serde::{Deserialize, Serialize};
+
+/// What is remembered of the last step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Memory {
+    velocity: Vector3<f64>,
+    /// Length of the step in s, 0 if there was none.
+    step: f64,
+    /// All forces that were known.
+    known: Vector3<f64>,
+    /// What was not, in the step before it.
+    unknown: Vector3<f64>,
+    drag: Vector3<f64>,
+}
+
+/// What acts on a body in a Rapier step.
+#[derive(Clone, Copy, Debug)]
+struct Acting {
+    /// Force and torque of the user, and those with the water's.
+    own: [Vector; 2],
+    with: [Vector; 2],
+    /// What was remembered before.
+    memory: Memory,
+    /// Centre of mass in m and attitude, at the beginning.
+    place: (Vector3<f64>, UnitQuaternion<f64>),
+}
+
+/// A body in water.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Member {
+    pub(super) body: RigidBodyHandle,
+    hull: Hull,
+    immersed: Immersed,
+    /// Added mass in kg, part of that of the body.
+    pub(super) added: f64,
+    /// Volume in m^3 that it displaces when it floats.
+    floating: f64,
+    memory: Memory,
+    /// Work of the water on it in J.
+    pub(super) work: f64,
+    #[serde(skip)]
+    acting: Option<Acting>,
+}
+
+/// Forces of the water on a body, without what balances the weight of the added mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct WaterForce {
+    /// Buoyancy and the pressure of the wave in N, world axes.
+    pub pressure: Vector3<f64>,
+    /// Where it acts in m, in the axes of the body from its origin.
+    pub pressure_point: Vector3<f64>,
+    /// Drag in N, world axes.
+    pub drag: Vector3<f64>,
+    /// Where it acts in m, in the axes of the body from its origin.
+    pub drag_point: Vector3<f64>,
+    /// Force of the wave on the added mass, in N, through the centre of mass.
+    pub inertia: Vector3<f64>,
+    /// Moment in N m beside that of the forces, world axes: drag of rotation, and what makes the
+    /// righting moment that of the middle of the step.
+    pub moment: Vector3<f64>,
+    /// Share of the volume that is wet.
+    pub wet: f64,
+}
+
+/// What the force of a step depends on.
+pub(super) struct Input<'a> {
+    pub(super) water: &'a Water,
+    pub(super) sea: Option<&'a Sea>,
+    pub(super) gravity: Vector3<f64>,
+    /// Middle of the step in s.
+    pub(super) time: f64,
+    pub(super) h: f64,
+    /// Time in s by which the position is ahead of one that a constant force moves exactly.
+    pub(super) lead: f64,
+}
+
+/// A body in a step.
+struct Place {
+    /// Centroid of its volume in m, in the middle of the step but for the height, at its beginning.
+    centre: Vector3<f64>,
+    rotation: UnitQuaternion<f64>,
+    mass: f64,
+    velocity: Vector3<f64>,
+}
+
+impl Member {
+    /// Creates a body in water by its added mass (kg) and the volume (m^3) that it displaces when
+    /// it floats.
+    pub(super) fn new(body: RigidBodyHandle, hull: Hull, immersed: Immersed, (added, floating): (f64, f64)) -> Self {
+        let memory = Memory::default();
+        Member { body, hull, immersed, added, floating, memory, work: 0.0, acting: None }
+    }
+
+    /// Returns the volume in m^3.
+    pub(super) fn volume(&self) -> f64 {
+        self.hull.volume()
+    }
+
+    /// Forgets the last step.
+    pub(super) fn forget(&mut self) {
+        (self.memory, self.acting) = (Memory::default(), None);
+    }
+
+    /// Returns the speed in m/s that no point of the body exceeds.
+    pub(super) fn fastest(&self, body: &RigidBody) -> f64 {
+        let arm = (self.hull.centre() - vector(body.local_center_of_mass())).norm() + self.hull.radius();
+        f64::from(body.linvel().length()) + f64::from(body.angvel().length()) * arm
+    }
+
+    /// Returns the force on the body as it is, without a step.
+    pub(super) fn at_rest(&self, body: &RigidBody, input: &Input<'_>) -> WaterForce {
+        Member { memory: Memory::default(), ..self.clone() }.force(body, input).0
+    }
+
+    /// Adds the force of a step to that of the user.
+    pub(super) fn put_on(&mut self, body: &mut RigidBody, input: &Input<'_>) {
+        let memory = self.memory;
+        let (force, turned) = self.force(body, input);
+        let (centre, scale) = (vector(body.local_center_of_mass()), f64::from(body.gravity_scale()));
+        let sum = force.pressure + force.drag + force.inertia - input.gravity * (scale * self.added);
+        let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
+            + (turned * (force.drag_point - centre)).cross(&force.drag)
+            + force.moment;
+        let own = [body.user_force(), body.user_torque()];
+        body.add_force(to_vector(&sum), false);
+        body.add_torque(to_vector(&moment), false);
+        let with = [body.user_force(), body.user_torque()];
+        let place = (vector(body.center_of_mass()), rotation(*body.rotation()));
+        self.acting = Some(Acting { own, with, memory, place });
+    }
+
+    /// Takes the force of the last step off a body, if it is still there: after the step, whose
+    /// work it adds, or without one.
+    pub(super) fn take_off(&mut self, body: Option<&mut RigidBody>, stepped: bool) {
+        let Some(Acting { own, with, memory, place }) = self.acting.take() else { return };
+        if !stepped {
+            self.memory = memory;
+        }
+        let Some(body) = body else { return };
+        // what others added since stays
+        let now = [body.user_force(), body.user_torque()];
+        let [force, torque] = [0, 1].map(|i| if now[i] == with[i] { own[i] } else { now[i] - (with[i] - own[i]) });
+        body.reset_forces(false);
+        body.reset_torques(false);
+        body.add_force(force, false);
+        body.add_torque(torque, false);
+        if stepped {
+            let turn = (rotation(*body.rotation()) * place.1.inverse()).scaled_axis();
+            let [force, torque] = [0, 1].map(|i| vector(with[i]) - vector(own[i]));
+            self.work += force.dot(&(vector(body.center_of_mass()) - place.0)) + torque.dot(&turn);
+        }
+    }
+
+    /// Returns the mean force over a step with the attitude in its middle, and remembers what the
+    /// next one needs.
+    fn force(&mut self, body: &RigidBody, input: &Input<'_>) -> (WaterForce, UnitQuaternion<f64>) {
+        let &Input { water, sea, gravity, time, h, lead } = input;
+        let (rho, half) = (water.density, 0.5 * h);
+        let (mass, velocity, spin) = (f64::from(body.mass()), vector(body.linvel()), vector(body.angvel()));
+        let weight = gravity * ((mass - self.added) * f64::from(body.gravity_scale()));
+        let known = weight + vector(body.user_force());
+        let others = known + self.unknown(mass, &velocity);
+        let turned = UnitQuaternion::from_scaled_axis(spin * half) * rotation(*body.rotation());
+        let arm = turned * (self.hull.centre() - vector(body.local_center_of_mass()));
+        let start = vector(body.center_of_mass()) - velocity * lead + arm;
+        let up = sea.map_or(Vector3::zeros(), |sea| sea.up());
+        let across = velocity - up * up.dot(&velocity);
+        let place = Place { centre: start + across * half, rotation: turned, mass, velocity };
+        let moments = symmetric_inertia(body).diagonal();
+        let least = moments.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
+        // what a force at the centroid feels of the mass
+        let felt = 1.0 / (1.0 / mass + arm.norm_squared() / least);
+        let to_body = |x: &Vector3<f64>| turned.inverse() * x;
+        let mut drag = self.memory.drag;
+        let mut rounds = 0;
+        loop {
+            let (volume, rise) = self.displaced(input, &place, up.dot(&(others + drag)));
+            let middle = place.centre + up * (0.5 * rise);
+            let wet = self.wet(input, &middle, &turned);
+            let at = sea.map(|sea| sea.at(time, &(middle + turned * (wet.centre - self.hull.centre()))));
+            let acceleration = at.map_or(Vector3::zeros(), |at| at.acceleration);
+            let share = if self.floating > 0.0 { (wet.volume / self.floating).min(1.0) } else { 0.0 };
+            let pressure = acceleration * (rho * wet.volume) - gravity * (rho * volume);
+            let inertia = acceleration * (share * self.added);
+            let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &middle).velocity);
+            let relative = to_body(&(velocity + spin.cross(&arm) - water.current(time, &middle) - wave));
+            let factor = 0.5 * rho * share;
+            let coefficient = self.immersed.drag_area * factor;
+            let forces = to_body(&(others + pressure + inertia - acceleration * mass));
+            let masses = Vector3::repeat(felt);
+            let mean = if h <= 0.0 {
+                -coefficient.component_mul(&relative) * relative.norm()
+            } else if rounds < STEP_ROUNDS / 4 {
+                mean_drag(&masses, &coefficient, &relative, &forces, h)
+            } else {
+                midpoint(&masses, &coefficient, &(relative + forces * (0.5 * h / felt)), h)
+            };
+            let change = turned * mean - drag;
+            // buoyancy depends on how far drag lets the body go
+            let settled = sea.is_none() || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm());
+            if rounds > STEP_ROUNDS {
+                // buoyancy is now that with this drag; one that would drive the body is none
+                let actual = relative + (forces + to_body(&drag)) * (0.5 * h / felt);
+                if to_body(&drag).dot(&actual) > 0.0 {
+                    drag = Vector3::zeros();
+                    continue;
+                }
+            } else if settled || h <= 0.0 {
+                drag += change;
+            } else {
+                rounds += 1;
+                drag += change * if rounds < STEP_ROUNDS / 2 { 1.0 } else { 0.5 };
+                continue;
+            }
+            let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });
+            let torque = (turned * (wet.centre - vector(body.local_center_of_mass()))).cross(&pressure);
+            let inertia_matrix = symmetric_inertia(body);
+            let righting = self.righting(input, &(middle - arm), &turned, &inertia_matrix, body);
+            let torque = to_body(&(torque + righting + arm.cross(&drag) + vector(body.user_torque())));
+            let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
+            let known = known + pressure + inertia + drag;
+            self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
+            let force = WaterForce {
+                pressure,
+                pressure_point: wet.centre,
+                drag,
+                drag_point: self.hull.centre(),
+                inertia,
+                moment: turned * spin_drag + righting,
+                wet: wet.volume / self.hull.volume(),
+            };
+            return (force, turned);
+        }
+    }
+
+    /// Returns by how much the mean righting moment over a step, that at the attitude in its middle
+    /// to first order, exceeds that at the attitude of a uniform rotation: x - t with (I + h^2/4 K)
+    /// I^-1 x = t, K the derivative of the moment t by the rotation.
+    fn righting(
+        &self,
+        input: &Input<'_>,
+        mass_centre: &Vector3<f64>,
+        turned: &UnitQuaternion<f64>,
+        inertia: &Matrix3<f64>,
+        body: &RigidBody,
+    ) -> Vector3<f64> {
+        let Input { h, water, gravity, .. } = *input;
+        if h <= 0.0 || *inertia == Matrix3::zeros() {
+            return Vector3::zeros();
+        }
+        let local = vector(body.local_center_of_mass());
+        let moment = |rotation: UnitQuaternion<f64>| {
+            let wet = self.wet(input, &(mass_centre + rotation * (self.hull.centre() - local)), &rotation);
+            (rotation * (wet.centre - local)).cross(&(gravity * (-water.density * wet.volume)))
+        };
+        let column = |axis: usize| {
+            let by = |angle: f64| moment(UnitQuaternion::from_scaled_axis(Vector3::ith(axis, angle)) * turned);
+            (by(-SMALL_ANGLE) - by(SMALL_ANGLE)) / (2.0 * SMALL_ANGLE)
+        };
+        let stiffness = Matrix3::from_columns(&[column(0), column(1), column(2)]);
+        let rotation = turned.to_rotation_matrix();
+        let inertia = rotation * inertia * rotation.transpose();
+        let sum = inertia + (stiffness + stiffness.transpose()) * (0.125 * h * h);
+        let uniform = moment(*turned);
+        // a float that turns over within the step has no stiffness that counts
+        sum.cholesky().map_or(Vector3::zeros(), |sum| inertia * sum.solve(&uniform) - uniform)
+    }
+
+    /// Returns what cables, contacts and joints are expected to do, in N: what they did in the last
+    /// two steps, by the smaller of the two where they agree in sign.
+    fn unknown(&mut self, mass: f64, velocity: &Vector3<f64>) -> Vector3<f64> {
+        let memory = &mut self.memory;
+        if memory.step <= 0.0 {
+            memory.unknown = Vector3::zeros();
+            return Vector3::zeros();
+        }
+        let last = (velocity - memory.velocity) * (mass / memory.step) - memory.known;
+        let before = core::mem::replace(&mut memory.unknown, last);
+        last.zip_map(&before, |a, b| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()).copysign(a) })
+    }
+
+    /// Returns what is below the surface with the centroid of the whole at a point.
+    fn wet(&self, input: &Input<'_>, centre: &Vector3<f64>, rotation: &UnitQuaternion<f64>) -> Wet {
+        let Some(sea) = input.sea else {
+            return self.hull.below(&Vector3::y(), f64::INFINITY);
+        };
+        let normal = sea.normal(input.time, centre);
+        // along up from the surface to the centre, across the plane that it is
+        let depth = sea.depth(input.time, centre) * normal.dot(&sea.up());
+        self.hull.below(&(rotation.inverse() * normal), depth)
+    }
+
+    /// Returns the mean volume displaced over a step and the rise in it, in m: the root r of
+    /// r = h v + h^2/2m (f + rho g V(r)), V(r) the mean over the rise, which falls with it.
+    fn displaced(&self, input: &Input<'_>, place: &Place, others: f64) -> (f64, f64) {
+        let whole = self.hull.volume();
+        let Some(sea) = input.sea else { return (whole, 0.0) };
+        let up = sea.up();
+        let Input { h, water, gravity, .. } = input;
+        let (factor, weight) = (h * h / (2.0 * place.mass), water.density * -gravity.dot(&up));
+        let normal = sea.normal(input.time, &place.centre);
+        let tilt = normal.dot(&up);
+        let depth = sea.depth(input.time, &place.centre) * tilt;
+        let normal = place.rotation.inverse() * normal;
+        let below = |rise: f64| self.hull.below(&normal, depth - rise * tilt);
+        // volume times the depth of its centroid: its derivative by the depth is the volume
+        let moment = |wet: &Wet, rise: f64| {
+            wet.volume * (depth / tilt - rise - normal.dot(&(wet.centre - self.hull.centre())) / tilt)
+        };
+        let first = below(0.0);
+        let start = moment(&first, 0.0);
+        let mean = |rise: f64| {
+            let last = below(rise);
+            if first.volume == last.volume && (first.volume == whole || first.volume == 0.0) {
+                first.volume
+            } else if rise.abs() < SMALLEST_RISE * self.hull.radius() {
+                below(0.5 * rise).volume
+            } else {
+                ((start - moment(&last, rise)) / rise).clamp(0.0, whole)
+            }
+        };
+        let uniform = h * up.dot(&place.velocity) + factor * others;
+        let excess = |rise: f64, volume: f64| uniform + factor * weight * volume - rise;
+        let (mut low, mut high) = (uniform, uniform + factor * weight.max(0.0) * whole);
+        if low >= high {
+            return (mean(low), low);
+        }
+        let [dry, wet] = [mean(low), mean(high)];
+        let [mut at_low, mut at_high] = [excess(low, dry), excess(high, wet)];
+        if at_low <= 0.0 {
+            return (dry, low);
+        }
+        if at_high >= 0.0 {
+            return (wet, high);
+        }
+        // false position after Illinois
+        let (mut side, mut found) = (0, (dry, low));
+        for _ in 0..HEIGHT_ROUNDS {
+            let rise = low + (high - low) * (at_low / (at_low - at_high));
+            let volume = mean(rise);
+            let here = excess(rise, volume);
+            found = (volume, rise);
+            if here.abs() <= f64::EPSILON * self.hull.radius() {
+                break;
+            }
+            if here > 0.0 {
+                (low, at_low) = (rise, here);
+                at_high *= if side == 1 { 0.5 } else { 1.0 };
+                side = 1;
+            } else {
+                (high, at_high) = (rise, here);
+                at_low *= if side == -1 { 0.5 } else { 1.0 };
+                side = -1;
+            }
+        }
+        found
+    }
+}
