@@ -20,7 +20,7 @@ fn line(span: [f64; 2], elements: usize) -> CableBuilder {
 fn catenary(span: f64, weight: f64, axial: f64, miss: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let of = |force: f64| {
         // length L0 such that the span fits
-        let (mut low, mut high) = (0.5 * span, 3.0 * span);
+        let (mut low, mut high) = (0.5 * span, 30.0 * span);
         for _ in 0..200 {
             let l = 0.5 * (low + high);
             let x = force * l / axial + 2.0 * force / weight * (0.5 * weight * l / force).asinh();
@@ -49,6 +49,13 @@ fn a_length_by_tension_or_sag_is_that_of_the_catenary() {
         assert!((cable.length() / length - 1.0).abs() < 2e-5, "sag {sag}: {} for {length}", cable.length());
         cable.equilibrium().unwrap();
         assert!((cable.sample(0.5 * cable.length()).unwrap().position.y + sag).abs() < 1e-5 * sag);
+    }
+    // a rope of several times its span: the same at a sixth of the span
+    for sag in [6.0, 40.0] {
+        let cable = line([6.0, 0.0], 30).sag(sag).build().unwrap();
+        let (_, length) = catenary(6.0, weight, 2e6, |_, found| sag - found);
+        println!("sag {sag} of 6: {} for {length}", cable.length());
+        assert!((cable.length() / length - 1.0).abs() < 2e-3, "sag {sag}: {} for {length}", cable.length());
     }
     for tension in [300.0, 3e3, 5e4] {
         let mut cable = line([40.0, 0.0], 30).pretension(tension).build().unwrap();

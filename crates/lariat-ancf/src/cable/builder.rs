@@ -115,14 +115,15 @@ impl CableBuilder {
     }
 
     /// Instead of [`length`](Self::length): the length with which the cable has this tension in N
-    /// at its middle when it hangs between its drawn ends, under its weight and constant loads.
+    /// at its middle when it hangs between its drawn ends, under its weight, loads per length and
+    /// buoyancy: as it is installed, before loads at points, wind and currents.
     pub fn pretension(mut self, tension: f64) -> Self {
         self.span = Some(Span::Tension(tension));
         self
     }
 
     /// Instead of [`length`](Self::length): the length with which the cable hangs by this distance
-    /// in m below the line between its drawn ends, at most.
+    /// in m below the line between its drawn ends, at most; under the same.
     pub fn sag(mut self, sag: f64) -> Self {
         self.span = Some(Span::Sag(sag));
         self

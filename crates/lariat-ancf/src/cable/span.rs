@@ -2,8 +2,9 @@
 //!
 //! # Equation
 //!
-//! A cable between its drawn ends, held there, hangs in equilibrium under its weight and constant
-//! loads. Of its length L, the tension at its middle and the sag are functions that the statics of
+//! A cable between its drawn ends, held there, hangs in equilibrium under its weight, constant loads
+//! per length and the buoyancy of water at rest: as it is installed, before wind, currents and loads
+//! at points. Of its length L, the tension at its middle and the sag are functions that the statics of
 //! the cable give, and L is the root of
 //!
 //! ```text
@@ -75,10 +76,20 @@ impl Span {
         let (mut step, mut high) = (SPAN_WITHIN.sqrt(), low);
         loop {
             let length = if longer { drawn * (1.0 + step) } else { drawn / (1.0 + step) };
-            if step > 1.0 {
+            let ends = match self {
+                _ if !longer => step > 1.0,
+                // whatever hangs from both ends hangs by half of its slack
+                Span::Sag(sag) => length > 2.0 * (drawn + 2.0 * sag),
+                Span::Tension(_) => false,
+            };
+            if ends {
                 unreached()?;
             }
             let next = [length, missed(length)?];
+            // beyond the length of the least tension it grows with the weight
+            if longer && !self.is_sag() && next[1] <= high[1] {
+                unreached()?;
+            }
             (low, high) = if longer { (high, next) } else { (next, low) };
             if (next[1] >= 0.0) == longer {
                 break;

@@ -53,6 +53,11 @@ pub trait Coupling {
     /// reel.
     fn plan_reels(&mut self, dt: f64);
 
+    /// Returns the number of steps of an [`Island`](crate::island::Island), not an integer, into
+    /// which `dt` (s) is to be divided so that no reel moves more than half of the element at its
+    /// eye in one; 0 without a reel.
+    fn steps_of_reels(&self, dt: f64) -> f64;
+
     /// Splits or merges the elements at the eyes of reels where their lengths ask for it; does
     /// nothing without a reel. [`step`](Cable::step) does so by itself. Between the steps of an
     /// [`Island`](crate::island::Island) the caller does, because the numbers of nodes change: at a
@@ -247,6 +252,10 @@ impl Coupling for Cable {
 
     fn plan_reels(&mut self, dt: f64) {
         Cable::plan_reels(self, dt)
+    }
+
+    fn steps_of_reels(&self, dt: f64) -> f64 {
+        Cable::steps_of_reels(self, dt)
     }
 
     fn remesh_reel(&mut self) -> Result<(), Error> {

@@ -35,6 +35,7 @@ from lariat.recording import Recording, Track, record
 from lariat.reel import Reel
 from lariat.scenes import Probe, Run, import_mjcf, keys, load, rules, run, statics
 from lariat.sweeps import Sweep, sweep
+from lariat.water import Water, Wave
 
 __all__ = [
     "AxialLaw",
@@ -74,6 +75,8 @@ __all__ = [
     "Sweep",
     "Torsion",
     "Track",
+    "Water",
+    "Wave",
     "World",
     "__version__",
     "bodies",

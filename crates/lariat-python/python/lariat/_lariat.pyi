@@ -36,6 +36,7 @@ from lariat.results import (
     WorldEquilibrium,
 )
 from lariat.types import Array, Fidelity, Handle, Place
+from lariat.water import Water
 
 VERSION: str
 
@@ -742,6 +743,32 @@ class World:
 
     def momentum(self) -> Momentum:
         """Returns the momentum of cables and bodies."""
+
+    def set_water(self, water: Water | None) -> None:
+        """Sets the water of the world; bodies that are in it stay, with their added mass. None takes it away, with all that is in it.
+        Raises InvalidValueError."""
+
+    def immerse(
+        self,
+        body: Handle,
+        drag_area: ArrayLike | None = None,
+        *,
+        spin_drag: ArrayLike | None = None,
+        added_mass: float = 0.0,
+        volume: float | None = None,
+    ) -> None:
+        """Puts a dynamic body into the water: buoyancy, the forces of its wave, drag, and added mass.
+
+        ``drag_area`` is drag coefficient times area (m^2), ``spin_drag`` the coefficient of the quadratic drag of rotation (m^5), both (3,) along
+        the axes of the body, none by default. ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere. ``volume``
+        (m^3) is by default that of its colliders. The body has now its mass and colliders; call it again after they change. Raises
+        NoWaterError, NoBodyError, NotDynamicError, WaterValueError, NoVolumeError."""
+
+    def emerge(self, body: Handle) -> bool:
+        """Takes a body out of the water, with its added mass; returns whether it was in it."""
+
+    def water_work(self, body: Handle) -> float | None:
+        """Returns the work of the water in J on a body since it is in it; None for one that is not."""
 
     @property
     def time(self) -> float:

@@ -261,6 +261,22 @@ class NoBodyError(Error, LookupError):
     """A body that is not, or no longer, in the world."""
 
 
+class NotDynamicError(Error, ValueError):
+    """A body that is not dynamic, where only those are moved."""
+
+
+class NoWaterError(Error, LookupError):
+    """A world without water."""
+
+
+class NoVolumeError(Error, ValueError):
+    """A body in water without a collider that encloses a volume, and without a volume of its own."""
+
+
+class WaterValueError(Error, ValueError):
+    """A number of a body in water that is out of range."""
+
+
 class OtherWorldError(Error):
     """A cable or body of another world."""
 

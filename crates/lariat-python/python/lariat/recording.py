@@ -189,7 +189,7 @@ def _keys(names: Iterable[str]) -> list[str]:
 
 def _columns(rows: list[Array]) -> list[str]:
     count = rows[0].size - 1
-    return ["t", *({1: ["value"], 3: ["x", "y", "z"]}.get(count) or [f"v{i}" for i in range(count)])]
+    return ["t", *(["value"] if count == 1 else [f"value_{'xyz'[i] if count == 3 else i}" for i in range(count)])]
 
 
 def _file(folder: str | PathLike[str], kind: str, name: str) -> Path:

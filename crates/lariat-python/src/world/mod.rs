@@ -1,4 +1,4 @@
-//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `events`, `joints`, `queries`, `ropes`, `scene` and `wheels` hold what their names say.
+//! `World`: rapier3d with cables on its bodies. `bodies`, `colliders`, `events`, `joints`, `queries`, `ropes`, `scene`, `water` and `wheels` hold what their names say.
 
 mod bodies;
 mod colliders;
@@ -7,6 +7,7 @@ mod joints;
 mod queries;
 mod ropes;
 mod scene;
+mod water;
 mod wheels;
 
 pub use scene::load_scene;

@@ -57,7 +57,10 @@ pub(crate) fn energy(contents: &Contents, world: &PhysicsWorld) -> Result<WorldE
         let (handle, body) = body?;
         let scale = f64::from(world.bodies[handle].gravity_scale());
         sum.bodies_kinetic += body.kinetic_energy();
-        sum.bodies_gravity -= body.mass * scale * gravity.dot(&body.position);
+        // added mass has no weight
+        let added =
+            contents.water.as_ref().and_then(|water| water.volume_and_added_mass(handle)).map_or(0.0, |of| of.1);
+        sum.bodies_gravity -= (body.mass - added) * scale * gravity.dot(&body.position);
     }
     Ok(sum)
 }

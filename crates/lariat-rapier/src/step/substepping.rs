@@ -8,6 +8,7 @@
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
 //! h v <= l/2                      of a body that collides at v, l the elements at its pins
 //! h v <= r                        of one whose cables have contact, or that cables press on, r their radius
+//! h v <= l/2                      of a reel at the rate v, l the element at its eye
 //! ```
 //! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:
@@ -113,6 +114,7 @@ pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settin
     }
     let fastest = || fastest.unwrap_or_else(|| proximity::fastest(world));
     let needed = needed.max(rotation(contents, world, dt)).max(pressed(contents, world, (dt, fastest)));
+    let needed = contents.cables.values().map(|slot| slot.cable.steps_of_reels(dt)).fold(needed, f64::max);
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }

@@ -362,10 +362,20 @@ impl Physics {
         state
     }
 
-    /// Returns kinetic energy and potential energy in gravity of the dynamic bodies, in J.
+    /// Returns kinetic energy and potential energy in gravity of the dynamic bodies, in J. Added mass has no weight.
     pub fn energy(&self, scene: &Scene) -> (f64, f64) {
-        let potential = |body: &RigidBody| -body.mass * scene.gravity.dot(&body.position);
-        self.dynamic(scene).fold((0.0, 0.0), |sum, body| (sum.0 + body.kinetic_energy(), sum.1 + potential(&body)))
+        let (mut kinetic, mut gravity) = (0.0, 0.0);
+        for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {
+            if body.kind != BodyKind::Dynamic {
+                continue;
+            }
+            let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
+            let added =
+                self.cables.water().and_then(|water| water.volume_and_added_mass(handle)).map_or(0.0, |of| of.1);
+            kinetic += rigid.kinetic_energy();
+            gravity -= (rigid.mass - added) * scene.gravity.dot(&rigid.position);
+        }
+        (kinetic, gravity)
     }
 
     /// Returns the momentum of the dynamic bodies.

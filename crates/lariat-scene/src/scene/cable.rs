@@ -34,7 +34,8 @@ table! {
         /// Unstretched length: a cable shorter than drawn is taut at the start, a longer one hangs slack.
         length: Option<f64> = ("the length of the polyline"), Kind::Number(POSITIVE), "m";
         /// Instead of `length`: the length with which it has this tension at its middle when it hangs between its drawn ends, under its
-        /// weight and constant loads. `initial = "equilibrium"` starts it so.
+        /// weight, `line_load` and buoyancy: as it is installed, before a `[[load]]`, wind or a current. `initial = "equilibrium"` starts with
+        /// all of them.
         pretension: Option<f64> = ("none"), Kind::Number(POSITIVE), "N";
         /// Instead of `length`: the length with which it hangs by this distance below the line between its drawn ends, at most.
         sag: Option<f64> = ("none"), Kind::Number(POSITIVE), "m";
@@ -291,6 +292,7 @@ fn length(
         Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize).section(section);
     let builder =
         builder.rule(rule).effects(effects).allow_rank_deficient().gravity(gravity).fix(At::Start).fix(At::End);
+    let builder = builder.name(row.name.as_str());
     let builder = if key == "sag" { builder.sag(value) } else { builder.pretension(value) };
     builder.build().map(|cable| cable.length()).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
 }

@@ -14,7 +14,7 @@ use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::warning::sizes;
 use lariat_ancf::{Cable, Flow, Vector3, Water};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Largest axial strain, on the mean of a cable, that its drawn corners may make.
 const CORNER_STRAIN: f64 = 3e-3;
@@ -34,6 +34,8 @@ const SLACK: f64 = 3.0;
 const ANCHOR: f64 = 3.0;
 /// Largest size of a body over the length of a wave that it does not disturb (Faltinsen 1990, ch. 3).
 const IN_WAVES: f64 = 0.2;
+/// Largest rounding of the position of a dynamic body in m: at 1/60 s velocities are rounded to 6 mm/s then.
+const ROUNDING: f64 = 1e-4;
 /// Largest force over EA.
 const LOAD: f64 = 1.0;
 
@@ -51,6 +53,8 @@ impl Scene {
         if purpose != Purpose::Static {
             warnings.extend(self.falling());
             warnings.extend(self.unfinished_ramps());
+            warnings.extend(self.fast_spins());
+            warnings.extend(self.far_from_origin());
         }
         warnings
     }
@@ -154,6 +158,25 @@ impl Scene {
     fn many_turns(&self) -> impl Iterator<Item = Warning> {
         let turned = self.bodies.iter().filter(|body| body.angle > TAU * (1.0 + 1e-6));
         turned.map(|body| Warning::ManyTurns { body: body.name.clone(), angle_rad: body.angle })
+    }
+
+    /// Returns a warning for each dynamic body of which single precision rounds the positions.
+    fn far_from_origin(&self) -> impl Iterator<Item = Warning> {
+        let dynamic = self.bodies.iter().filter(|body| body.kind == BodyKind::Dynamic);
+        dynamic.filter_map(|body| {
+            let (body, distance_m) = (body.name.clone(), body.course.position.amax());
+            let rounding_m = distance_m * f64::from(f32::EPSILON);
+            (rounding_m > ROUNDING).then_some(Warning::FarFromOrigin { body, distance_m, rounding_m })
+        })
+    }
+
+    /// Returns a warning for each body that turns by more than half a turn in a host step.
+    fn fast_spins(&self) -> impl Iterator<Item = Warning> {
+        self.bodies.iter().filter_map(|body| {
+            let spin = if body.kind == BodyKind::Fixed { 0.0 } else { body.course.angular_velocity.norm() };
+            let (body, turn_rad, dt_s) = (body.name.clone(), spin * self.dt, self.dt);
+            (turn_rad > PI).then(|| Warning::FastSpin { body, turn_rad, dt_s, longest_s: 0.5 * PI / spin })
+        })
     }
 
     /// Returns a warning about cable `i`, as drawn and in its initial motion, if corners of its points hold much of its energy.

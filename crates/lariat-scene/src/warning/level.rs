@@ -25,6 +25,8 @@ impl Warning {
             | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::FarFromOrigin { .. }
+            | Warning::FastSpin { .. }
             | Warning::ManyTurns { .. } => Level::Setup,
             Warning::OpenGap { .. }
             | Warning::Unsettled { .. }
@@ -67,6 +69,8 @@ impl Warning {
             | Warning::LeftAsDrawn { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::FarFromOrigin { .. }
+            | Warning::FastSpin { .. }
             | Warning::ManyTurns { .. } => None,
         }
     }
@@ -103,6 +107,8 @@ impl Judged for Warning {
             | Warning::MuchSlack { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::FarFromOrigin { .. }
+            | Warning::FastSpin { .. }
             | Warning::ManyTurns { .. } => return None,
         })
     }
@@ -147,6 +153,8 @@ impl Judged for Warning {
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
+            Warning::FarFromOrigin { distance_m, .. } => *distance_m,
+            Warning::FastSpin { turn_rad, .. } => *turn_rad,
             Warning::NoConvergence { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::RankDeficient { .. }

@@ -389,6 +389,34 @@ pub enum Warning {
         /// Angle in rad.
         angle_rad: f64,
     },
+    /// A dynamic body so far from the origin that single precision rounds its positions.
+    #[error(
+        "body {body:?}: it is {distance_m:.1e} m from the origin, where the single precision of bodies rounds positions to {rounding_m:.1e} m, and motions \
+         slower than that in a step are lost: move the origin near it"
+    )]
+    FarFromOrigin {
+        /// Name of the body.
+        body: String,
+        /// Largest of its coordinates in m.
+        distance_m: f64,
+        /// Distance of the numbers that there are, there, in m.
+        rounding_m: f64,
+    },
+    /// A body that turns by more than half a turn in a host step.
+    #[error(
+        "body {body:?}: it turns by {turn_rad:.1} rad in a step of {dt_s:.4} s, beyond half a turn, and only where it is at the end of a step is known: what \
+         is tied to it takes the shorter way; take a shorter `dt`, below {longest_s:.1e} s"
+    )]
+    FastSpin {
+        /// Name of the body.
+        body: String,
+        /// Angle in a host step in rad.
+        turn_rad: f64,
+        /// Length of a host step in s.
+        dt_s: f64,
+        /// Length of a host step in s in which it makes a quarter of a turn.
+        longest_s: f64,
+    },
     /// What a cable says about its own mesh, steps, law and sizes.
     #[error("{}", Interface::Scene.text(.0))]
     #[serde(untagged)]

@@ -6,7 +6,7 @@ use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use crate::integrate::OneStep;
 use crate::reel::{Feed, Reel};
-use crate::scales::reel::{MOST_PARTS, PASSING, STANDING_RATE};
+use crate::scales::reel::{LARGEST_SHARE, MOST_PARTS, PASSING, STANDING_RATE};
 
 impl Cable {
     /// Returns the number of parts in which a host step of `dt` (s) is to be taken; 1 without a
@@ -140,6 +140,16 @@ impl Cable {
         Ok(())
     }
 
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn steps_of_reels(&self, dt: f64) -> f64 {
+        let of_side = |side: Side| {
+            let full = self.model.reels.element(self.number(side.element(self.elements().len()))).length;
+            let length = self.snapshot.windings[side as usize].as_ref().map_or(full, |winding| winding.extent[0]);
+            self.fastest_rate(side, dt) * dt / (LARGEST_SHARE * full.min(length))
+        };
+        self.model.reels.sides().map(of_side).fold(0.0, f64::max)
+    }
+
     /// Checks, after a step of an island of `dt` (s) failed, that its reels had not to move more
     /// than half of the element at the eye, of its full or its present length: an unknown rate may
     /// grow within the step.
@@ -185,6 +195,7 @@ impl Cable {
 
 /// Refuses lengths in m that are more than half of an element.
 fn require_share(passing: f64, full: f64) -> Result<(), Error> {
-    let what = "share of an element that its reel moves in a step of an island";
-    require(what, passing / full, passing <= 0.5 * full, "<= 0.5")
+    let what =
+        "share of an element that its reel moves in a step of an island (take shorter steps, or longer elements)";
+    require(what, passing / full, passing <= LARGEST_SHARE * full, "<= 0.5")
 }

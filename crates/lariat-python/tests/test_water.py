@@ -1,0 +1,92 @@
+"""Bodies of a world in water."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import lariat
+
+
+def pool(density: float, **water: object) -> tuple[lariat.World, tuple[int, int]]:
+    world = lariat.World()
+    ball = world.add_body(lariat.RigidBody.dynamic(), [lariat.Collider.ball(0.2, density=density)])
+    world.set_water(lariat.Water(1000.0, **water))  # type: ignore[arg-type]
+    return world, ball
+
+
+def test_a_float_rests_where_it_displaces_its_weight() -> None:
+    """Source: Archimedes; half of a ball is below where its density is half that of the water."""
+    world, ball = pool(500.0)
+    world.immerse(ball, [0.06] * 3)
+    for _ in range(900):
+        world.step()
+    assert abs(world.rigid_bodies[ball].translation[1]) < 0.01
+
+
+def test_a_ball_sinks_at_its_terminal_speed_and_floats_on_a_wave() -> None:
+    """Source: weight less buoyancy = drag. A small float on a long wave follows its height."""
+    world, ball = pool(3000.0, level=None)
+    world.immerse(ball, [0.06] * 3, added_mass=0.5)
+    for _ in range(600):
+        world.step()
+    volume = 4 / 3 * math.pi * 0.2**3
+    speed = math.sqrt(2 * 2000.0 * volume * 9.81 / (1000.0 * 0.06))
+    assert world.rigid_bodies[ball].linvel[1] == pytest.approx(-speed, rel=1e-3)
+    work = world.water_work(ball)
+    assert work is not None and work < 0.0
+
+    world, ball = pool(500.0, wave=lariat.Wave(0.3, 8.0))
+    world.immerse(ball, [0.06] * 3, added_mass=0.5)
+    heights = []
+    for _ in range(2400):
+        world.step()
+        heights.append(world.rigid_bodies[ball].translation[1])
+    assert max(heights[-480:]) == pytest.approx(0.3, abs=0.02)
+
+
+def test_water_is_saved_changed_and_taken_away() -> None:
+    world, ball = pool(500.0)
+    world.immerse(ball, added_mass=0.5)
+    for _ in range(30):
+        world.step()
+    saved = world.snapshot()
+    for _ in range(30):
+        world.step()
+    after = world.rigid_bodies[ball].translation
+    world.restore(saved)
+    for _ in range(30):
+        world.step()
+    assert np.array_equal(world.rigid_bodies[ball].translation, after)
+    world.set_water(lariat.Water(2000.0))
+    assert world.emerge(ball) and not world.emerge(ball)
+    world.immerse(ball)
+    world.set_water(None)
+    assert world.water_work(ball) is None
+    before = world.rigid_bodies[ball].linvel[1]
+    world.step()
+    assert world.rigid_bodies[ball].linvel[1] == pytest.approx(before - 9.81 / 60, abs=1e-4)
+
+
+def test_what_cannot_be_in_water_is_refused_by_name() -> None:
+    world = lariat.World()
+    wall = world.add_body(lariat.RigidBody.fixed(), [lariat.Collider.ball(0.2)])
+    bare = world.add_body(lariat.RigidBody.dynamic())
+    with pytest.raises(lariat.errors.NoWaterError):
+        world.immerse(bare)
+    world.set_water(lariat.Water(1000.0))
+    with pytest.raises(lariat.errors.NotDynamicError):
+        world.immerse(wall)
+    with pytest.raises(lariat.errors.NoVolumeError):
+        world.immerse(bare)
+    with pytest.raises(lariat.errors.WaterValueError):
+        world.immerse(bare, volume=0.0)
+    for wrong in (lariat.Water(0.0), lariat.Water(1000.0, wave=lariat.Wave(0.3, 0.0))):
+        with pytest.raises(lariat.errors.Error):
+            world.set_water(wrong)
+    with pytest.raises(ValueError, match="level"):
+        world.set_water(lariat.Water(1000.0, level=None, wave=lariat.Wave(0.3, 8.0)))
+    with pytest.raises(TypeError, match="Water"):
+        world.set_water(1000.0)  # type: ignore[arg-type]
