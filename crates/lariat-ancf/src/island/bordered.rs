@@ -230,6 +230,12 @@ impl Bordered {
         values
     }
 
+    /// Returns the number of products of blocks of six that condensation and factors take.
+    #[cfg(test)]
+    pub fn products(&self) -> usize {
+        self.sparse.products() + self.cables.iter().map(|cable| cable.condensed.products()).sum::<usize>()
+    }
+
     /// Returns whether it is positive definite.
     pub fn is_positive_definite(&self) -> bool {
         self.sparse.is_positive_definite()

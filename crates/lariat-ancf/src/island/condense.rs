@@ -104,8 +104,7 @@ impl Condensed {
         for (triple, &Held { node, slope }) in held.iter().enumerate() {
             self.at_node[node][usize::from(slope)] = Some(triple);
             let first = node.saturating_sub(1);
-            let mut columns =
-                HeldColumns { first, nodes: (node + 2).min(a.nodes()) - first, rows: Default::default() };
+            let mut columns = HeldColumns { first, nodes: (node + 2).min(a.nodes()) - first, rows: Default::default() };
             for (x, rows) in (offset(usize::from(slope))..).zip(&mut columns.rows) {
                 for k in 0..columns.nodes {
                     let at = first + k;
@@ -197,7 +196,9 @@ impl Condensed {
             set_products(&mut self.w, &self.at_node, 0, column, (triple, k % 3));
             for part in 0..2 {
                 let row = before + 2 * body + part;
-                if let Some((block, [r, c])) = Some(row).filter(|row| *row <= triple).and_then(|row| self.w.of(row, triple)) {
+                if let Some((block, [r, c])) =
+                    Some(row).filter(|row| *row <= triple).and_then(|row| self.w.of(row, triple))
+                {
                     (0..3).for_each(|y| block.0[r + y][c + k % 3] = touched[body].block[(3 * part + y, x)]);
                 }
             }

@@ -94,3 +94,6 @@ pub(super) fn give(cuts: &[usize], increments: &[f64], cable: &mut [f64]) {
 pub(super) fn blocks(cuts: usize) -> usize {
     cuts.div_ceil(2)
 }
+
+#[cfg(test)]
+mod tests;

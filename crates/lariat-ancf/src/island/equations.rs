@@ -5,6 +5,7 @@ use super::condense::Columns;
 use super::cuts;
 use super::hold::{Hold, direction_near, vector};
 use super::layout::{Layout, Part};
+use super::mass_key::MassKey;
 use super::rotation::skew;
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
@@ -30,6 +31,8 @@ struct CableBuffers {
     directions: [Vec<Vector3<f64>>; 2],
     /// Factors of the mass matrix; those of the step matrix are the cable's own.
     mass_factorisation: Factorisation,
+    /// Of these and the condensed mass matrix.
+    mass_key: MassKey,
     /// Mass matrix times accelerations.
     product: Vec<f64>,
 }
@@ -44,7 +47,8 @@ impl CableBuffers {
     }
 }
 
-/// Factored matrices of an island; nothing here outlives a host step but the buffers.
+/// Factored matrices of an island. Of what a host step leaves here only the condensed mass matrices
+/// serve the next one, and only if they are the same.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Matrices {
     cables: Vec<CableBuffers>,
@@ -169,8 +173,12 @@ impl IslandEquations<'_, '_> {
         if !self.matrices.mass_is_factored || clamped {
             let Matrices { cables: buffers, mass, .. } = &mut *self.matrices;
             for (c, ((cable, part), buffers)) in self.cables.iter_mut().zip(&layout.parts).zip(buffers).enumerate() {
-                let CableBuffers { directions, mass_factorisation, .. } = buffers;
+                let CableBuffers { directions, mass_factorisation, mass_key, .. } = buffers;
                 update_clamp_directions(cable, &part.holds, q, &mut directions[MatrixKind::Mass as usize]);
+                if mass_key.fits(cable, part) {
+                    continue;
+                }
+                mass_key.clear();
                 let Cable { model, system, .. } = &mut **cable;
                 let matrix = &mut system.step.matrix;
                 matrix.clear();
@@ -182,6 +190,7 @@ impl IslandEquations<'_, '_> {
                 let columns = Columns { held: &part.held, cuts: &part.cuts, ..Columns::default() };
                 let project = |first: usize, x: &mut [f64]| project_part(model, first, x);
                 mass.cable(c).complete(system.level, mass_factorisation, columns, project);
+                mass_key.set(cable, part);
             }
             self.matrices.mass_is_factored = true;
         }

@@ -52,6 +52,7 @@ mod hold;
 mod impedance;
 mod kinematics;
 mod layout;
+mod mass_key;
 mod memory;
 mod pin;
 mod pin_accounts;

@@ -122,7 +122,8 @@ impl SchurComplement {
         }
         let (middle, walls) = (self.nodes / 2, &self.walls);
         let next = |end: usize| walls.get(walls.partition_point(|wall| *wall < end)).copied().unwrap_or(self.nodes);
-        let last = |first: usize| walls[..walls.partition_point(|wall| *wall < first)].last().map_or(0, |wall| wall + 1);
+        let last =
+            |first: usize| walls[..walls.partition_point(|wall| *wall < first)].last().map_or(0, |wall| wall + 1);
         if factorisation.twisted().is_none() {
             [last(first), next(end)]
         } else if end <= middle {
@@ -161,7 +162,8 @@ impl SchurComplement {
                 (0..6).for_each(|k| block.0[k][lane] = six[k]);
             }
         }
-        for (group, (&span, &start)) in self.spans.iter().zip(&self.starts).enumerate().filter(|(_, (s, _))| s[0] < s[1])
+        for (group, (&span, &start)) in
+            self.spans.iter().zip(&self.starts).enumerate().filter(|(_, (s, _))| s[0] < s[1])
         {
             let range = start..start + span[1] - span[0];
             let parts = (&mut self.columns[range.clone()], &mut self.solved[range]);

@@ -215,6 +215,12 @@ impl SparseSymmetric {
         }
     }
 
+    /// Returns the number of products of blocks that the factors take.
+    #[cfg(test)]
+    pub fn products(&self) -> usize {
+        self.order.start.windows(2).map(|column| column[1] - column[0]).map(|below| below * (below + 3) / 2).sum()
+    }
+
     /// Returns whether the factored matrix is positive definite.
     pub fn is_positive_definite(&self) -> bool {
         if self.is_dense { self.dense.is_positive_definite() } else { self.signs.iter().all(|sign| *sign > 0.0) }

@@ -5,6 +5,7 @@ use crate::contact;
 use crate::edit::{breaking, world_mark};
 use crate::error::Error;
 use crate::read::warnings;
+use crate::step::held_bodies::HeldBodies;
 use crate::step::{self, HostStep};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
@@ -12,7 +13,7 @@ use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 impl CableSet {
     /// Returns how many Rapier steps a host step of `dt` (s) will have.
     pub(crate) fn rapier_steps(&self, world: &PhysicsWorld, dt: f64) -> f64 {
-        f64::from(step::substepping::count(&self.contents, world, &self.settings, dt))
+        f64::from(step::substepping::count(&self.contents, world, &self.settings, &mut HeldBodies::default(), dt))
     }
 
     /// Returns whether a cable is attached to a body, which is then integrated with it.

@@ -20,7 +20,6 @@ use crate::contents::attachment::Attachment;
 use crate::scales::step::SLACK_SHARE;
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::At;
-use rapier::dynamics::RigidBodyHandle;
 
 /// The stiffness of the cables of a body, in N/m.
 #[derive(Clone, Copy, Debug)]
@@ -33,9 +32,8 @@ pub(super) struct Stiffness {
 impl Stiffness {
     /// Returns that of the cables that may be taut within `dt` (s), if the body moves by `change`
     /// (m) beside its present motion.
-    pub fn of(contents: &Contents, body: RigidBodyHandle, (dt, change): (f64, f64)) -> Self {
+    pub fn of<'a>(parts: impl Iterator<Item = &'a Part>, (dt, change): (f64, f64)) -> Self {
         let mut stiffness = Stiffness { matrix: Matrix3::zeros(), sum: 0.0 };
-        let parts = on_body(contents, body).flat_map(|a| parts(contents, a));
         for part in parts.filter(|part| part.speed * dt + change > SLACK_SHARE * part.slack) {
             let along = part.direction * part.direction.transpose();
             stiffness.matrix += along * part.axial + (Matrix3::identity() - along) * part.lateral;
@@ -50,13 +48,9 @@ impl Stiffness {
     }
 }
 
-/// Returns the attachments on a body.
-pub(super) fn on_body(contents: &Contents, body: RigidBodyHandle) -> impl Iterator<Item = &Attachment> {
-    contents.attachments.values().filter(move |a| a.body == body)
-}
-
 /// The part of a cable between a node and a held end.
-struct Part {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
     /// Of its chord at the node, of length 1; 0 if that has none.
     direction: Vector3<f64>,
     /// Upper bounds of its stiffness in N/m along this direction, and across.
@@ -69,7 +63,7 @@ struct Part {
 }
 
 /// Returns the parts of a cable between an attachment and the held ends.
-fn parts<'a>(contents: &'a Contents, a: &Attachment) -> impl Iterator<Item = Part> + use<'a> {
+pub(super) fn parts<'a>(contents: &'a Contents, a: &Attachment) -> impl Iterator<Item = Part> + use<'a> {
     // the number may be that of before a change of the cable
     let (cable, node) = (contents.slot(a.cable).map(|slot| &slot.cable), a.node);
     cable.into_iter().flat_map(move |cable| {
