@@ -161,7 +161,7 @@ impl Bordered {
         let Beside { condensed, levers: list, .. } = &mut self.cables[cable];
         list.clear();
         list.extend(levers);
-        condensed.w.for_each(list.len(), |[a, b], block| {
+        condensed.w.for_each(|[a, b], block| {
             let (one, other) = (&list[a], &list[b]);
             if other.body <= one.body {
                 add_coupling(self.sparse.block(one.body, other.body), [one, other], &block);

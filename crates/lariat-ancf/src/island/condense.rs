@@ -153,7 +153,7 @@ impl Condensed {
     /// Finds which groups of columns are coupled.
     fn find_coupled(&mut self, factorisation: &Factorisation, columns: Columns<'_>) {
         let Columns { held, touched, strand, pairs, own, .. } = columns;
-        self.w.begin(self.count);
+        self.w.begin(self.count / 3);
         for (triple, column) in self.columns.iter().enumerate() {
             self.w.reach(triple, [column.first, column.first + column.nodes]);
         }

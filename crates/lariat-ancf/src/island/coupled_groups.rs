@@ -19,7 +19,7 @@ const TRIPLES: usize = GROUP / 3;
 /// W, in blocks of groups of columns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CoupledGroups {
-    /// By group, the nodes to which it reaches.
+    /// By triple, the nodes to which it reaches.
     reaches: Vec<Span>,
     /// Those for which the pairs were found.
     known: Vec<Span>,
@@ -32,15 +32,15 @@ pub(super) struct CoupledGroups {
 }
 
 impl CoupledGroups {
-    /// Begins anew for a number of columns.
-    pub fn begin(&mut self, columns: usize) {
+    /// Begins anew for a number of triples.
+    pub fn begin(&mut self, triples: usize) {
         self.reaches.clear();
-        self.reaches.resize(columns.div_ceil(GROUP), [usize::MAX, 0]);
+        self.reaches.resize(triples, [usize::MAX, 0]);
     }
 
     /// Lets a triple of columns have entries in some nodes, those that are held included.
     pub fn reach(&mut self, triple: usize, nodes: Span) {
-        let reach = &mut self.reaches[triple / TRIPLES];
+        let reach = &mut self.reaches[triple];
         *reach = [reach[0].min(nodes[0]), reach[1].max(nodes[1])];
     }
 
@@ -51,11 +51,12 @@ impl CoupledGroups {
         if self.known != self.reaches || self.first.is_empty() {
             self.pairs.clear();
             self.first.clear();
-            let meet = |one: Span, other: Span| one[0].max(other[0]) < one[1].min(other[1]);
-            for (a, one) in self.reaches.iter().enumerate() {
+            let groups = || self.reaches.chunks(TRIPLES).enumerate();
+            for (a, own) in groups() {
                 self.first.push(self.pairs.len());
-                let others = self.reaches.iter().enumerate().skip(a);
-                self.pairs.extend(others.filter(|(b, other)| *b == a || meet(*one, **other)).map(|(b, _)| [a, b]));
+                let couples = |other: &[Span]| own.iter().any(|one| other.iter().any(|two| meet(one, two)));
+                let others = groups().skip(a).filter(|(b, other)| *b == a || couples(other));
+                self.pairs.extend(others.map(|(b, _)| [a, b]));
             }
             self.first.push(self.pairs.len());
             self.known.clone_from(&self.reaches);
@@ -73,12 +74,12 @@ impl CoupledGroups {
         Some((&mut self.blocks[at], [row, column].map(|triple| 3 * (triple % TRIPLES))))
     }
 
-    /// Calls `f` with all coupled triples below a number, the first at most the second, and their
-    /// parts of W.
-    pub fn for_each(&self, triples: usize, mut f: impl FnMut([usize; 2], Matrix3<f64>)) {
+    /// Calls `f` with all coupled triples, the first at most the second, and their parts of W.
+    pub fn for_each(&self, mut f: impl FnMut([usize; 2], Matrix3<f64>)) {
+        let triples = |group: usize| TRIPLES * group..self.reaches.len().min(TRIPLES * (group + 1));
         for (&[a, b], block) in self.pairs.iter().zip(&self.blocks) {
-            for row in TRIPLES * a..triples.min(TRIPLES * (a + 1)) {
-                for column in (TRIPLES * b).max(row)..triples.min(TRIPLES * (b + 1)) {
+            for (row, column) in triples(a).flat_map(|row| triples(b).map(move |column| (row, column))) {
+                if row == column || row < column && meet(&self.reaches[row], &self.reaches[column]) {
                     let [r, c] = [row, column].map(|triple| 3 * (triple % TRIPLES));
                     let of = |x: usize, y: usize| block.0[r + x][c + y];
                     let upper = |x: usize, y: usize| if row == column { of(x.min(y), x.max(y)) } else { of(x, y) };
@@ -87,4 +88,9 @@ impl CoupledGroups {
             }
         }
     }
+}
+
+/// Returns whether there is a node in both.
+fn meet(one: &Span, other: &Span) -> bool {
+    one[0].max(other[0]) < one[1].min(other[1])
 }

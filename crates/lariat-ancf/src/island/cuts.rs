@@ -74,18 +74,20 @@ pub(super) fn cut(cuts: &[usize], matrix: &mut BlockTridiagonal) {
     }
 }
 
-/// Moves the rows of the slopes from a cable to the border; `rows` begin with those of its cuts.
+/// Moves the rows of the slopes from a cable to the border; `rows` begin with those of its cuts,
+/// the last cut first.
 pub(super) fn take(cuts: &[usize], cable: &mut [f64], rows: &mut [f64]) {
-    for (node, row) in cuts.iter().zip(rows.chunks_exact_mut(3)) {
+    for (node, row) in cuts.iter().rev().zip(rows.chunks_exact_mut(3)) {
         let own = &mut cable[6 * node + 3..6 * node + 6];
         row.iter_mut().zip(&*own).for_each(|(row, x)| *row += x);
         own.fill(0.0);
     }
 }
 
-/// Sets the increments of the slopes to those of the border, three numbers each.
+/// Sets the increments of the slopes to those of the border, three numbers each, the last cut
+/// first.
 pub(super) fn give(cuts: &[usize], increments: &[f64], cable: &mut [f64]) {
-    for (node, three) in cuts.iter().zip(increments.chunks_exact(3)) {
+    for (node, three) in cuts.iter().rev().zip(increments.chunks_exact(3)) {
         cable[6 * node + 3..6 * node + 6].copy_from_slice(three);
     }
 }

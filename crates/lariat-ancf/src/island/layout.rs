@@ -36,7 +36,8 @@ pub(super) struct Part {
     pub holds: Vec<Hold>,
     /// Nodes at which it is cut, in ascending order.
     pub cuts: Vec<usize>,
-    /// Those of the border: that follow bodies, then the slopes of cuts.
+    /// Those of the border: that follow bodies, then the slopes of cuts, the last cut first, so that
+    /// neighbours in the list are neighbours along the cable.
     pub held: Vec<Held>,
     /// The first block of the border, beyond the bodies, of its cuts.
     pub cut_at: usize,
@@ -120,7 +121,7 @@ impl Layout {
             cuts::find(cable, &part.holds, (bodies, pins), &mut part.cuts);
             part.held.clear();
             part.held.extend(part.holds.iter().map(|&Hold { node, slope, .. }| Held { node, slope }));
-            part.held.extend(part.cuts.iter().map(|&node| Held { node, slope: true }));
+            part.held.extend(part.cuts.iter().rev().map(|&node| Held { node, slope: true }));
             part.cut_at = self.cut_blocks;
             self.cut_blocks += cuts::blocks(part.cuts.len());
         }

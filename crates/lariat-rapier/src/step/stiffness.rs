@@ -15,11 +15,10 @@
 //! # References
 //! The stiffness matrix of a bar with its geometric part: Bathe, Finite Element Procedures, ch. 6.
 
-use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::scales::step::SLACK_SHARE;
 use ::nalgebra::{Matrix3, Vector3};
-use lariat_ancf::At;
+use lariat_ancf::{At, Cable, Element};
 
 /// The stiffness of the cables of a body, in N/m.
 #[derive(Clone, Copy, Debug)]
@@ -62,30 +61,35 @@ pub(super) struct Part {
     speed: f64,
 }
 
-/// Returns the parts of a cable between an attachment and the held ends.
-pub(super) fn parts<'a>(contents: &'a Contents, a: &Attachment) -> impl Iterator<Item = Part> + use<'a> {
+/// Returns length in m and compliance in m/N of an element.
+pub(super) fn length_and_compliance(e: &Element) -> [f64; 2] {
+    [e.length, e.length / e.section.axial_stiffness]
+}
+
+/// Returns the parts of a cable between an attachment and the held ends; `between` gives length in
+/// m and compliance in m/N of the elements between two nodes, the first before the second.
+pub(super) fn parts<'a, F: Fn(usize, usize) -> [f64; 2] + 'a>(
+    cable: &'a Cable,
+    a: &Attachment,
+    between: F,
+) -> impl Iterator<Item = Part> + use<'a, F> {
+    let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
+    let last = cable.elements().len();
     // the number may be that of before a change of the cable
-    let (cable, node) = (contents.slot(a.cable).map(|slot| &slot.cable), a.node);
-    cable.into_iter().flat_map(move |cable| {
-        let velocity = |n: usize| Vector3::from_column_slice(&cable.velocities()[6 * n..6 * n + 3]);
-        let last = cable.elements().len();
-        let node = node.min(last);
-        let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
-        [0, last].into_iter().filter(move |end| *end != node && held(*end)).map(move |end| {
-            let elements = &cable.elements()[node.min(end)..node.max(end)];
-            let length: f64 = elements.iter().map(|e| e.length).sum();
-            let compliance: f64 = elements.iter().map(|e| e.length / e.section.axial_stiffness).sum();
-            let chord = (cable.node_position(node) - cable.node_position(end)).norm();
-            let (next, near) = if end < node { (node - 1, node - 1) } else { (node + 1, node) };
-            let (beside, near) = (cable.node_position(next) - cable.node_position(node), &cable.elements()[near]);
-            let tension = near.section.axial_stiffness * (beside.norm() / near.length - 1.0);
-            Part {
-                direction: beside.try_normalize(0.0).unwrap_or_default(),
-                axial: 1.0 / compliance,
-                lateral: tension.max(0.0) / near.length,
-                slack: length - chord,
-                speed: (velocity(node) - velocity(end)).norm(),
-            }
-        })
+    let node = a.node.min(last);
+    let held = |end: usize| cable.support(At::Node(end)).is_ok_and(|s| s.attached || s.position.is_some());
+    [0, last].into_iter().filter(move |end| *end != node && held(*end)).map(move |end| {
+        let [length, compliance] = between(node.min(end), node.max(end));
+        let chord = (cable.node_position(node) - cable.node_position(end)).norm();
+        let (next, near) = if end < node { (node - 1, node - 1) } else { (node + 1, node) };
+        let (beside, near) = (cable.node_position(next) - cable.node_position(node), &cable.elements()[near]);
+        let tension = near.section.axial_stiffness * (beside.norm() / near.length - 1.0);
+        Part {
+            direction: beside.try_normalize(0.0).unwrap_or_default(),
+            axial: 1.0 / compliance,
+            lateral: tension.max(0.0) / near.length,
+            slack: length - chord,
+            speed: (velocity(node) - velocity(end)).norm(),
+        }
     })
 }

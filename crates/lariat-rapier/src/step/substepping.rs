@@ -69,7 +69,7 @@ use crate::scales::body::MAX_HALF_ROTATION;
 use crate::scales::step::{DEVIATION_SHARE, JOINTED_STEPS, MAX_LOSS, MAX_PHASE, MAX_REBOUND, MIN_REACTION};
 use crate::step::held_bodies::HeldBodies;
 use crate::step::settings::{Settings, pieces};
-use crate::step::stiffness::{Part, Stiffness, parts};
+use crate::step::stiffness::{Part, Stiffness, length_and_compliance, parts};
 use ::nalgebra::Vector3;
 use lariat_ancf::coupling::Coupling;
 use rapier::dynamics::RigidBodyHandle;
@@ -89,37 +89,36 @@ pub(crate) fn count(
         return min;
     }
     held.read(contents);
-    let (bodies, of_body) = held.each(contents);
     let mut fastest = None;
     let mut needed = f64::from(min);
-    for (handle, attachments) in bodies.clone().filter(|(body, _)| is_integrated(world, *body)) {
+    held.for_each(contents, |handle, own| {
+        if !is_integrated(world, handle) {
+            return;
+        }
         let fastest = *fastest.get_or_insert_with(|| proximity::fastest(world));
-        of_body.clear();
-        of_body.extend(attachments.clone().flat_map(|a| parts(contents, a)));
-        let body = Body::new(contents, world, handle, (dt, of_body));
+        let body = Body::new(contents, world, handle, (dt, own.parts));
         // most cables stay slack and hardly move whatever their body meets, and collisions take
         // longer to find
         let most = f64::from(world.bodies[handle].linvel().length()) + fastest;
-        let longest = attachments.clone().map(|a| max_deviation(contents, a)).fold(f64::INFINITY, f64::min);
+        let longest = own.attachments().map(|a| max_deviation(contents, a)).fold(f64::INFINITY, f64::min);
         if body.stiffness(most).sum == 0.0 && most * dt <= longest {
-            continue;
+            return;
         }
         let collision = proximity::collision(world, handle, (dt, fastest));
-        let held = || attachments.clone().any(|a| is_held(contents, a));
-        let Some(speed) = collision.or_else(|| held().then_some(0.0)) else { continue };
+        let held = || own.attachments().any(|a| is_held(contents, a));
+        let Some(speed) = collision.or_else(|| held().then_some(0.0)) else { return };
         let steps = |stiffness: f64| dt * (stiffness * body.inverse_mass).sqrt() / MAX_PHASE;
         let stiffness = body.stiffness(speed);
         needed = needed.max(speed * dt / longest);
         if steps(stiffness.sum) > needed {
             needed = needed.max(steps(body.pushed(&stiffness, (dt, fastest))));
         }
-    }
-    let bodies = || bodies.clone().map(|(body, _)| body);
-    if bodies().any(|body| is_integrated(world, body) && !proximity::is_unjointed(world, body)) {
+    });
+    if held.bodies().any(|body| is_integrated(world, body) && !proximity::is_unjointed(world, body)) {
         needed = needed.max(JOINTED_STEPS * f64::from(pieces(dt)));
     }
     let fastest = || fastest.unwrap_or_else(|| proximity::fastest(world));
-    let needed = needed.max(rotation(bodies(), world, dt)).max(pressed(contents, world, (dt, fastest)));
+    let needed = needed.max(rotation(held.bodies(), world, dt)).max(pressed(contents, world, (dt, fastest)));
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
 }
@@ -230,9 +229,14 @@ impl<'a> Body<'a> {
 /// rests: it has less kinetic energy than a strain of its cables by the force there.
 pub(super) fn resting_phase(contents: &Contents, world: &PhysicsWorld, a: &Attachment, h: f64) -> Option<f64> {
     let body = world.bodies.get(a.body).filter(|_| is_integrated(world, a.body) && is_held(contents, a))?;
-    let of_body = contents.attachments.values().filter(|b| b.body == a.body);
-    let parts = of_body.flat_map(|a| parts(contents, a));
-    let stiffness = parts.map(|part| Stiffness::of([part].iter(), (h, 0.0)).sum).sum::<f64>();
+    let on_body = contents.attachments.values().filter(|b| b.body == a.body);
+    let of_attachment = |a: &Attachment| {
+        let Some(cable) = contents.slot(a.cable).map(|slot| &slot.cable) else { return 0.0 };
+        let sum = |[l, c]: [f64; 2], [length, compliance]: [f64; 2]| [l + length, c + compliance];
+        let between = |a: usize, b: usize| cable.elements()[a..b].iter().map(length_and_compliance).fold([0.0; 2], sum);
+        parts(cable, a, between).map(|part| Stiffness::of([part].iter(), (h, 0.0)).sum).sum()
+    };
+    let stiffness: f64 = on_body.map(of_attachment).sum();
     let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
     let rests = mass * speed * speed * stiffness < a.reading.force.norm_squared();
     rests.then(|| h * (stiffness / mass).sqrt())
