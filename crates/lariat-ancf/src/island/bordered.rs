@@ -9,7 +9,8 @@
 //! T has one band per cable. The border y are the bodies, the slopes of [cuts](super::cuts) and the
 //! forces of contacts between cables; its columns B are sparse: those of held coordinates p are
 //! A_fp G, those of a touched body and of a contact are in the elements where it acts. D is the
-//! inertia of the bodies and A_pp, and -1 of the forces. Each cable is [condensed](super::condense) to its W, and
+//! inertia of the bodies and A_pp, and -1 of the forces. Each cable is [condensed](super::condense)
+//! to its W, and
 //!
 //! ```text
 //! S = B + sum G^T W G          G = (1, -[arm]x) of a held position, (0, -[arm]x) of a held slope,

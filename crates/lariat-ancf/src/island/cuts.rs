@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //!
-//! A pin holds the position of a node, and its slope alone couples the cable on both sides of it. If
-//! the slope is an unknown of the border, beside the bodies, each stretch between two cuts is
+//! A pin holds the position of a node, and its slope alone couples the cable on both sides of it.
+//! If the slope is an unknown of the border, beside the bodies, each stretch between two cuts is
 //! condensed on its own two ends:
 //!
 //! ```text

@@ -16,7 +16,8 @@ pub(super) struct Hold {
     pub slope: bool,
 }
 
-/// Three coordinates of a cable, position or slope of a node, that stand in the border of an island.
+/// Three coordinates of a cable, position or slope of a node, that stand in the border of an
+/// island.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Held {
     pub node: usize,

@@ -36,8 +36,8 @@ pub(super) struct Part {
     pub holds: Vec<Hold>,
     /// Nodes at which it is cut, in ascending order.
     pub cuts: Vec<usize>,
-    /// Those of the border: that follow bodies, then the slopes of cuts, the last cut first, so that
-    /// neighbours in the list are neighbours along the cable.
+    /// Those of the border: that follow bodies, then the slopes of cuts, the last cut first, so
+    /// that neighbours in the list are neighbours along the cable.
     pub held: Vec<Held>,
     /// The first block of the border, beyond the bodies, of its cuts.
     pub cut_at: usize,

@@ -121,8 +121,8 @@ impl Bridge {
     }
 }
 
-/// Pins at every node, at every second and fourth one, an odd number of them, some of them cut, with
-/// and without a touched body: the increments are those without cuts.
+/// Pins at every node, at every second and fourth one, an odd number of them, some of them cut,
+/// with and without a touched body: the increments are those without cuts.
 ///
 /// *Source.* The same equations with all slopes among the cable's own unknowns.
 #[test]
