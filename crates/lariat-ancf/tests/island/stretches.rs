@@ -40,7 +40,9 @@ fn ladder(integrator: Integrator) -> Scene {
     scene
 }
 
-/// The ladder keeps its momenta, and its energy to the accuracy of the integrator, for 0.5 s.
+/// The ladder keeps its momenta for 0.5 s, to the bounds of dumbbells and bricks (`momentum.rs`). Its
+/// energy stays under the explicit method, which resolves the waves of the impact, and never rises
+/// under the others, which damp them.
 ///
 /// *Source.* Conservation laws. Changes are relative to the angular momentum and the energy after
 /// the first step, in which the cables take the velocities of the bodies by an impact.
@@ -48,11 +50,11 @@ fn ladder(integrator: Integrator) -> Scene {
 fn a_ladder_in_space_keeps_momenta_and_energy() {
     let gradient = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
     let cases = [
-        (Integrator::tolerance(Method::Esdirk4, 1e-7).unwrap(), 1e-9, 1e-9, 1e-5),
-        (gradient, 1e-12, 1e-6, 0.05),
-        (Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) }, 2e-5, 5e-5, 5e-5),
+        (Integrator::default(), 1e-9, 1e-7, [0.05, 1e-9]),
+        (gradient, 1e-12, 1e-6, [0.05, 1e-9]),
+        (Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) }, 2e-5, 5e-5, [5e-5; 2]),
     ];
-    for (integrator, linear, angular, energy) in cases {
+    for (integrator, linear, angular, [fall, rise]) in cases {
         let mut scene = ladder(integrator);
         scene.run(1.0 / 60.0, 1);
         let ((p0, l0), e0) = (scene.momentum(), scene.energy());
@@ -61,7 +63,7 @@ fn a_ladder_in_space_keeps_momenta_and_energy() {
         let [p, l, e] = [(p - p0).norm() / l0.norm(), (l - l0).norm() / l0.norm(), (e - e0) / e0];
         println!("{integrator:?}: {p:.1e} {l:.1e} {e:.1e}, gap {:.1e}", scene.gap());
         assert!(scene.gap() < 1e-12, "gap {:.1e}", scene.gap());
-        assert!(p < linear && l < angular && e.abs() < energy, "{integrator:?}: {p:.1e} {l:.1e} {e:.1e}");
+        assert!(p < linear && l < angular && -fall < e && e < rise, "{integrator:?}: {p:.1e} {l:.1e} {e:.1e}");
     }
 }
 
