@@ -187,6 +187,15 @@ impl Support {
         self.slope != SlopeSupport::Free
     }
 
+    /// Returns whether it holds the same components as another.
+    pub(crate) fn holds_as(&self, other: &Support) -> bool {
+        let slopes = match (&self.slope, &other.slope) {
+            (SlopeSupport::Prescribed(_), SlopeSupport::Prescribed(_)) => true,
+            (one, other) => one == other,
+        };
+        slopes && self.holds_position() == other.holds_position()
+    }
+
     /// Removes the held components from a nodal vector (r, t).
     pub(crate) fn project(&self, x: &mut [f64]) {
         if self.holds_position() {

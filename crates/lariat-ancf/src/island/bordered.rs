@@ -6,14 +6,15 @@
 //! (T B; B^T D) (x; y) = (r; s)        S = D - B^T T^-1 B,   S y = s - B^T T^-1 r,   x = T^-1 (r - B y)
 //! ```
 //!
-//! T has one band per cable. The border y are the bodies and the forces of contacts between cables;
-//! its columns B are sparse: those of held coordinates p are A_fp G, those of a touched body and of
-//! a contact are in the elements where it acts. D is the inertia of the bodies and A_pp, and -1 of
-//! the forces. Each cable is [condensed](super::condense) to its W, and
+//! T has one band per cable. The border y are the bodies, the slopes of [cuts](super::cuts) and the
+//! forces of contacts between cables; its columns B are sparse: those of held coordinates p are
+//! A_fp G, those of a touched body and of a contact are in the elements where it acts. D is the
+//! inertia of the bodies and A_pp, and -1 of the forces. Each cable is [condensed](super::condense)
+//! to its W, and
 //!
 //! ```text
 //! S = B + sum G^T W G          G = (1, -[arm]x) of a held position, (0, -[arm]x) of a held slope,
-//!                              1 of a touched body and of the forces of a contact
+//!                              1 of a touched body, a cut and the forces of a contact
 //! ```
 //!
 //! # Validity
@@ -32,6 +33,7 @@
 
 use super::condense::Condensed;
 use super::coupling::CoupledInertia;
+use super::cuts;
 use super::hold::vector;
 use super::rotation::skew;
 use crate::error::StepFailure;
@@ -63,12 +65,14 @@ pub(super) struct Lever {
     body: usize,
     linear: bool,
     angular: Matrix3<f64>,
+    /// Whether `angular` is not 0.
+    turns: bool,
 }
 
 impl Lever {
     /// Of held coordinates with an arm; those of a slope only turn.
     pub fn held(body: usize, arm: &Vector3<f64>, slope: bool) -> Self {
-        Lever { body, linear: !slope, angular: -skew(arm) }
+        Lever { body, linear: !slope, angular: -skew(arm), turns: true }
     }
 
     /// Adds what a force on the coordinates does to the block.
@@ -90,16 +94,16 @@ impl Lever {
         if self.linear { vector(of) + rotated } else { rotated }
     }
 
-    /// Of the forces of a contact.
-    pub fn contact(bodies: usize, contact: usize) -> Self {
-        Self::own(bodies + contact / 2)[contact % 2]
+    /// Of the forces of a contact, or the slope of a cut, of which two are a block from `first` on.
+    pub fn of_own(first: usize, number: usize) -> Self {
+        Self::own(first + number / 2)[number % 2]
     }
 
     /// Of a body's own velocity and angular velocity.
     pub fn own(body: usize) -> [Self; 2] {
         [
-            Lever { body, linear: true, angular: Matrix3::zeros() },
-            Lever { body, linear: false, angular: Matrix3::identity() },
+            Lever { body, linear: true, angular: Matrix3::zeros(), turns: false },
+            Lever { body, linear: false, angular: Matrix3::identity(), turns: true },
         ]
     }
 }
@@ -115,12 +119,22 @@ impl Bordered {
         &mut self.cables[cable].condensed
     }
 
-    /// Begins the border anew for a number of bodies, and of contacts between cables, of which two
-    /// are a block.
-    pub fn begin(&mut self, bodies: usize, contacts: usize) {
-        let count = bodies + contacts.div_ceil(2);
+    /// Begins the border anew for a number of bodies, the cuts of cables, and a number of contacts
+    /// between cables. Two cuts, or two contacts, are a block.
+    pub fn begin(&mut self, bodies: usize, cuts: impl Iterator<Item = usize> + Clone, contacts: usize) {
+        let first = bodies + cuts.clone().map(cuts::blocks).sum::<usize>();
+        let count = first + contacts.div_ceil(2);
         self.sparse.begin(count);
-        (bodies..count).for_each(|block| self.sparse.set_negative(block));
+        (first..count).for_each(|block| self.sparse.set_negative(block));
+        let mut end = bodies;
+        for cuts in cuts {
+            end += cuts::blocks(cuts);
+            if cuts % 2 == 1 {
+                // half of the last block is nobody's
+                let block = self.sparse.block(end - 1, end - 1);
+                (3..6).for_each(|x| block.0[x][x] = 1.0);
+            }
+        }
     }
 
     /// Adds the inertia of a body in world axes.
@@ -148,25 +162,15 @@ impl Bordered {
         let Beside { condensed, levers: list, .. } = &mut self.cables[cable];
         list.clear();
         list.extend(levers);
-        let (w, count) = (&condensed.w, 3 * list.len());
-        for (a, one) in list.iter().enumerate() {
-            let turned = one.angular.transpose();
-            for (b, other) in list.iter().enumerate().filter(|(_, other)| other.body <= one.body) {
-                let out = self.sparse.block(one.body, other.body);
-                let block = Matrix3::from_fn(|r, c| w[(3 * a + r) * count + 3 * b + c]);
-                let rotated = block * other.angular;
-                out.add(3, 3, &(turned * rotated));
-                if one.linear {
-                    out.add(0, 3, &rotated);
-                }
-                if other.linear {
-                    out.add(3, 0, &(turned * block));
-                }
-                if one.linear && other.linear {
-                    out.add(0, 0, &block);
-                }
+        condensed.w.for_each(|[a, b], block| {
+            let (one, other) = (&list[a], &list[b]);
+            if other.body <= one.body {
+                add_coupling(self.sparse.block(one.body, other.body), [one, other], &block);
             }
-        }
+            if a != b && one.body <= other.body {
+                add_coupling(self.sparse.block(other.body, one.body), [other, one], &block.transpose());
+            }
+        });
     }
 
     /// Locks the axes of a body that are not free.
@@ -227,9 +231,34 @@ impl Bordered {
         values
     }
 
+    /// Returns the number of products of blocks of six that condensation and factors take.
+    #[cfg(test)]
+    pub fn products(&self) -> usize {
+        self.sparse.products() + self.cables.iter().map(|cable| cable.condensed.products()).sum::<usize>()
+    }
+
     /// Returns whether it is positive definite.
     pub fn is_positive_definite(&self) -> bool {
         self.sparse.is_positive_definite()
+    }
+}
+
+/// Adds what couples the coordinates of two levers to the block of what they follow.
+fn add_coupling(out: &mut Block, [one, other]: [&Lever; 2], block: &Matrix3<f64>) {
+    if other.turns {
+        let rotated = block * other.angular;
+        if one.turns {
+            out.add(3, 3, &(one.angular.transpose() * rotated));
+        }
+        if one.linear {
+            out.add(0, 3, &rotated);
+        }
+    }
+    if one.turns && other.linear {
+        out.add(3, 0, &(one.angular.transpose() * block));
+    }
+    if one.linear && other.linear {
+        out.add(0, 0, block);
     }
 }
 
@@ -302,16 +331,16 @@ mod tests {
             }
             let mut bordered = Bordered::default();
             bordered.resize(2);
-            bordered.begin(0, contacts);
+            bordered.begin(0, [].into_iter(), contacts);
             let mut factors = [Factorisation::default(), Factorisation::default()];
             let own =
                 [0, 1].map(|c| (0..contacts).filter(|&k| pairs[k].iter().any(|e| e.strand == c)).collect::<Vec<_>>());
-            let levers = |c: usize| own[c].iter().map(|&k| Lever::contact(0, k));
+            let levers = |c: usize| own[c].iter().map(|&k| Lever::of_own(0, k));
             for c in 0..2 {
                 factors[c].factor(level, &matrices[c]).unwrap();
                 let columns = Columns { strand: c, pairs: &pairs, own: &own[c], ..Columns::default() };
                 bordered.cable(c).read(&matrices[c], &[], &[]);
-                bordered.cable(c).complete(level, &factors[c], columns, |_| {});
+                bordered.cable(c).complete(level, &factors[c], columns, |_, _| {});
                 bordered.add_cable(c, levers(c));
             }
             bordered.factor().unwrap();

@@ -10,11 +10,13 @@
 //! ```
 //!
 //! Bodies that the cable touches stand beside the held coordinates, with columns and blocks of
-//! their own ([`contact`](crate::contact)), and so do the forces of contacts with cables.
+//! their own ([`contact`](crate::contact)), and so do the forces of contacts with cables. The
+//! slopes of [cuts](super::cuts) are among the held coordinates here, and follow themselves.
 //!
-//! W (3 rows per pin, 6 per clamp or touched body, 3 per contact with a cable) is the dynamic
-//! stiffness of the cable at the bodies; Y gives the increments of the cable from those of the
-//! bodies. Neither needs the columns of Y: a [`SchurComplement`] brings them half of the way.
+//! W (3 rows per pin or cut, 6 per clamp or touched body, 3 per contact with a cable) is the
+//! dynamic stiffness of the cable at the bodies, and [sparse](super::coupled_groups) if the cable
+//! is cut; Y gives the increments of the cable from those of the bodies. Neither needs the columns
+//! of Y: a [`SchurComplement`] brings them half of the way.
 //!
 //! # References
 //!
@@ -24,7 +26,8 @@
 //!
 //! Lagrange multipliers: the same solves, and an indefinite matrix in addition.
 
-use super::hold::Hold;
+use super::coupled_groups::CoupledGroups;
+use super::hold::Held;
 use crate::contact::{Border, PairColumns};
 use crate::linalg::{BlockTridiagonal, Factorisation, SchurComplement};
 use fearless_simd::Level;
@@ -32,7 +35,9 @@ use fearless_simd::Level;
 /// What stands beside the free coordinates of a cable, in the order of the rows of W.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Columns<'a> {
-    pub holds: &'a [Hold],
+    pub held: &'a [Held],
+    /// The nodes at which it is cut, in ascending order.
+    pub cuts: &'a [usize],
     /// The bodies that it touches.
     pub touched: &'a [Border],
     /// Its number among the cables.
@@ -42,132 +47,194 @@ pub(super) struct Columns<'a> {
     pub own: &'a [usize],
 }
 
-/// Nonzero rows of a column of A: up to three nodes from `first`.
+/// Nonzero rows of three columns of A: up to three nodes from `first`.
 #[derive(Clone, Copy, Debug, Default)]
-struct Column {
+struct HeldColumns {
     first: usize,
     nodes: usize,
-    rows: [f64; 18],
+    rows: [[f64; 18]; 3],
 }
 
 /// The condensed matrix of a cable.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Condensed {
-    /// By held coordinate: the column of A, before and after projection.
-    columns: Vec<Column>,
+    /// By held coordinates: the columns of A, before and after projection.
+    columns: Vec<HeldColumns>,
     schur: SchurComplement,
-    /// W, row-major.
-    pub w: Vec<f64>,
+    pub w: CoupledGroups,
+    /// Number of columns.
+    count: usize,
     size: usize,
     /// Columns of touched bodies, six each, before and after projection.
     borders: Vec<f64>,
+    /// By node, which of the held coordinates are its position and its slope.
+    at_node: Vec<[Option<usize>; 2]>,
     /// A vector of the cable.
     scratch: Vec<f64>,
+}
+
+/// Returns the first of three rows or columns of a position, or a slope, among those of a node.
+fn offset(slope: usize) -> usize {
+    3 * slope
+}
+
+/// Returns the nodes from the first to the last with entries in six columns of `size` numbers.
+fn extent(columns: &[f64], size: usize) -> [usize; 2] {
+    let mut nodes = [size / 6, 0];
+    for column in columns.chunks_exact(size.max(1)) {
+        let is_entry = |six: &[f64]| six.iter().any(|x| *x != 0.0);
+        let sixes = || column.chunks_exact(6);
+        if let (Some(first), Some(last)) = (sixes().position(is_entry), sixes().rposition(is_entry)) {
+            nodes = [nodes[0].min(first), nodes[1].max(last + 1)];
+        }
+    }
+    nodes
 }
 
 impl Condensed {
     /// Reads the columns of the held coordinates from `a`, before it is projected, and those of
     /// touched bodies.
-    pub fn read(&mut self, a: &BlockTridiagonal, holds: &[Hold], borders: &[Border]) {
+    pub fn read(&mut self, a: &BlockTridiagonal, held: &[Held], borders: &[Border]) {
         self.size = 6 * a.nodes();
         self.columns.clear();
         self.borders.clear();
         borders.iter().for_each(|border| self.borders.extend_from_slice(&border.columns));
-        for &Hold { node, slope, .. } in holds {
-            let offset = if slope { 3 } else { 0 };
-            for x in offset..offset + 3 {
-                let first = node.saturating_sub(1);
-                let mut column = Column { first, nodes: (node + 2).min(a.nodes()) - first, rows: [0.0; 18] };
-                for k in 0..column.nodes {
+        self.at_node.clear();
+        self.at_node.resize(a.nodes(), [None; 2]);
+        for (triple, &Held { node, slope }) in held.iter().enumerate() {
+            self.at_node[node][usize::from(slope)] = Some(triple);
+            let first = node.saturating_sub(1);
+            let mut columns = HeldColumns { first, nodes: (node + 2).min(a.nodes()) - first, rows: Default::default() };
+            for (x, rows) in (offset(usize::from(slope))..).zip(&mut columns.rows) {
+                for k in 0..columns.nodes {
                     let at = first + k;
                     for r in 0..6 {
-                        column.rows[6 * k + r] = match at.cmp(&node) {
+                        rows[6 * k + r] = match at.cmp(&node) {
                             std::cmp::Ordering::Less => a.lower[at].0[r][x],
                             std::cmp::Ordering::Equal => a.diag[at].0[x][r],
                             std::cmp::Ordering::Greater => a.lower[node].0[x][r],
                         };
                     }
                 }
-                self.columns.push(column);
             }
+            self.columns.push(columns);
         }
     }
 
-    /// Completes the condensation with the factored, projected matrix; `project` removes held rows
-    /// from a vector.
+    /// Completes the condensation with the factored, projected matrix, with rows and columns of
+    /// cuts those of the identity; `project` removes held rows from the nodes that begin with one.
     pub fn complete(
         &mut self,
         level: Level,
         factorisation: &Factorisation,
         columns: Columns<'_>,
-        project: impl Fn(&mut [f64]),
+        project: impl Fn(usize, &mut [f64]),
     ) {
-        let Columns { holds, touched: borders, strand, pairs, own } = columns;
-        let (held, size) = (self.columns.len(), self.size);
-        let before_pairs = held + 6 * borders.len();
-        let count = before_pairs + 3 * own.len();
-        self.w.clear();
-        self.w.resize(count * count, 0.0);
-        self.scratch.clear();
-        self.scratch.resize(size, 0.0);
-        self.schur.begin(size / 6, count);
-        for (j, column) in self.columns.iter_mut().enumerate() {
-            for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
-                if node >= column.first && node < column.first + column.nodes {
-                    let at = 6 * (node - column.first) + if slope { 3 } else { 0 };
-                    for x in 0..3 {
-                        self.w[(3 * q + x) * count + j] = column.rows[at + x];
+        let Columns { held, cuts, touched, own, .. } = columns;
+        self.count = 3 * held.len() + 6 * touched.len() + 3 * own.len();
+        self.schur.begin(self.size / 6, self.count);
+        self.schur.set_walls(cuts);
+        self.find_coupled(factorisation, columns);
+        let project = |first: usize, rows: &mut [f64]| {
+            project(first, rows);
+            let end = first + rows.len() / 6;
+            let from = cuts.partition_point(|cut| *cut < first);
+            cuts[from..].iter().take_while(|cut| **cut < end).for_each(|cut| {
+                rows[6 * (cut - first) + 3..6 * (cut - first) + 6].fill(0.0);
+            });
+        };
+        self.set_held(&project);
+        self.set_touched(held.len(), touched, &project);
+        self.set_pairs(held.len() + 2 * touched.len(), columns, &project);
+        self.schur.complete(level, factorisation);
+        self.schur.subtract_products(level, &self.w.pairs, &mut self.w.blocks);
+    }
+
+    /// Finds which groups of columns are coupled.
+    fn find_coupled(&mut self, factorisation: &Factorisation, columns: Columns<'_>) {
+        let Columns { held, touched, strand, pairs, own, .. } = columns;
+        self.w.begin(self.count / 3);
+        for (triple, column) in self.columns.iter().enumerate() {
+            self.w.reach(triple, [column.first, column.first + column.nodes]);
+        }
+        for (k, six) in self.borders.chunks_exact((6 * self.size).max(1)).enumerate() {
+            let nodes = extent(six, self.size);
+            (0..2).for_each(|part| self.w.reach(held.len() + 2 * k + part, nodes));
+        }
+        for (k, &pair) in own.iter().enumerate() {
+            for end in pairs[pair].iter().filter(|end| end.strand == strand) {
+                self.w.reach(held.len() + 2 * touched.len() + k, [end.element, end.element + 2]);
+            }
+        }
+        self.w.arrange(|nodes| self.schur.spread(factorisation, nodes));
+    }
+
+    fn set_held(&mut self, project: &impl Fn(usize, &mut [f64])) {
+        for (j, columns) in self.columns.iter_mut().enumerate() {
+            for k in 0..columns.nodes {
+                for (slope, q) in self.at_node[columns.first + k].iter().enumerate() {
+                    let Some(q) = q.filter(|q| *q <= j) else { continue };
+                    let Some((block, [row, column])) = self.w.of(q, j) else { continue };
+                    for (c, rows) in columns.rows.iter().enumerate() {
+                        (0..3).for_each(|x| block.0[row + x][column + c] = rows[6 * k + offset(slope) + x]);
                     }
                 }
             }
-            let range = 6 * column.first..6 * (column.first + column.nodes);
-            let rows = &mut column.rows[..6 * column.nodes];
-            self.scratch[range.clone()].copy_from_slice(rows);
-            project(&mut self.scratch);
-            rows.copy_from_slice(&self.scratch[range.clone()]);
-            self.scratch[range].fill(0.0);
-            self.schur.set(j, column.first, rows);
+            for (c, rows) in columns.rows.iter_mut().enumerate() {
+                let rows = &mut rows[..6 * columns.nodes];
+                project(columns.first, rows);
+                self.schur.set(3 * j + c, columns.first, rows);
+            }
         }
-        for (k, column) in self.borders.chunks_exact_mut(size.max(1)).enumerate() {
-            for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
-                for x in 0..3 {
-                    let value = column[6 * node + if slope { 3 } else { 0 } + x];
-                    self.w[(3 * q + x) * count + held + k] = value;
-                    self.w[(held + k) * count + 3 * q + x] = value;
+    }
+
+    /// Sets the columns of touched bodies, which come after `before` triples.
+    fn set_touched(&mut self, before: usize, touched: &[Border], project: &impl Fn(usize, &mut [f64])) {
+        for (k, column) in self.borders.chunks_exact_mut(self.size.max(1)).enumerate() {
+            let (body, x) = (k / 6, k % 6);
+            let triple = before + k / 3;
+            set_products(&mut self.w, &self.at_node, 0, column, (triple, k % 3));
+            for part in 0..2 {
+                let row = before + 2 * body + part;
+                if let Some((block, [r, c])) =
+                    Some(row).filter(|row| *row <= triple).and_then(|row| self.w.of(row, triple))
+                {
+                    (0..3).for_each(|y| block.0[r + y][c + k % 3] = touched[body].block[(3 * part + y, x)]);
                 }
             }
-            for x in 0..6 {
-                self.w[(held + k) * count + held + k / 6 * 6 + x] = borders[k / 6].block[(k % 6, x)];
-            }
-            project(column);
-            self.schur.set(held + k, 0, column);
+            project(0, column);
+            self.schur.set(3 * before + k, 0, column);
         }
+    }
+
+    /// Sets the columns of contacts between cables, which come after `before` triples.
+    fn set_pairs(&mut self, before: usize, columns: Columns<'_>, project: &impl Fn(usize, &mut [f64])) {
+        let Columns { strand, pairs, own, .. } = columns;
+        self.scratch.clear();
+        self.scratch.resize(self.size, 0.0);
         for (k, ends) in own.iter().map(|pair| &pairs[*pair]).enumerate() {
+            let ends = || ends.iter().filter(|end| end.strand == strand);
+            let range = |element: usize| 6 * element..6 * element + 12;
             for x in 0..3 {
-                let j = before_pairs + 3 * k + x;
-                for end in ends.iter().filter(|end| end.strand == strand) {
-                    let part = &mut self.scratch[6 * end.element..6 * end.element + 12];
+                for end in ends() {
+                    let part = &mut self.scratch[range(end.element)];
                     part.iter_mut().zip(&end.columns[x]).for_each(|(out, value)| *out += value);
                 }
-                for (q, &Hold { node, slope, .. }) in holds.iter().enumerate() {
-                    for y in 0..3 {
-                        let value = self.scratch[6 * node + if slope { 3 } else { 0 } + y];
-                        self.w[(3 * q + y) * count + j] = value;
-                        self.w[j * count + 3 * q + y] = value;
-                    }
+                for end in ends() {
+                    let part = &self.scratch[range(end.element)];
+                    set_products(&mut self.w, &self.at_node, end.element, part, (before + k, x));
                 }
-                project(&mut self.scratch);
-                for end in ends.iter().filter(|end| end.strand == strand) {
-                    let range = 6 * end.element..6 * end.element + 12;
-                    self.schur.set(j, end.element, &self.scratch[range]);
+                for end in ends() {
+                    project(end.element, &mut self.scratch[range(end.element)]);
                 }
-                for end in ends.iter().filter(|end| end.strand == strand) {
-                    self.scratch[6 * end.element..6 * end.element + 12].fill(0.0);
+                for end in ends() {
+                    self.schur.set(3 * (before + k) + x, end.element, &self.scratch[range(end.element)]);
+                }
+                for end in ends() {
+                    self.scratch[range(end.element)].fill(0.0);
                 }
             }
         }
-        self.schur.complete(level, factorisation);
-        self.schur.subtract_from(level, &mut self.w);
     }
 
     /// Computes `out = A_pf A_ff^-1 r_f` for projected rows `r_f`, which [`expand`](Self::expand)
@@ -175,12 +242,38 @@ impl Condensed {
     /// then contacts. The factorisation is that of [`complete`](Self::complete).
     pub fn reduce(&self, level: Level, factorisation: &Factorisation, rows: &mut [f64], out: &mut Vec<f64>) {
         out.clear();
-        out.resize(self.w.len().isqrt(), 0.0);
+        out.resize(self.count, 0.0);
         self.schur.reduce(level, factorisation, rows, out);
     }
 
     /// Computes `A_ff^-1 r_f - Y displacements` in place.
     pub fn expand(&self, level: Level, factorisation: &Factorisation, displacements: &[f64], rows: &mut [f64]) {
         self.schur.expand(level, factorisation, displacements, rows);
+    }
+
+    /// Returns the number of products of blocks of six that the condensation takes.
+    #[cfg(test)]
+    pub fn products(&self) -> usize {
+        self.w.pairs.iter().map(|pair| self.schur.common(*pair).len()).sum()
+    }
+}
+
+/// Sets the entries of W of held coordinates and a column x of a triple, which are those of the
+/// column in nodes from `first` on.
+fn set_products(
+    w: &mut CoupledGroups,
+    at_node: &[[Option<usize>; 2]],
+    first: usize,
+    column: &[f64],
+    (triple, x): (usize, usize),
+) {
+    for (six, at) in column.chunks_exact(6).zip(&at_node[first..]) {
+        for (three, q) in six.chunks_exact(3).zip(at) {
+            if let Some(q) = q.filter(|_| three.iter().any(|value| *value != 0.0))
+                && let Some((block, [row, column])) = w.of(q, triple)
+            {
+                (0..3).for_each(|y| block.0[row + y][column + x] = three[y]);
+            }
+        }
     }
 }

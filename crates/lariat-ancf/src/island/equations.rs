@@ -2,15 +2,17 @@
 
 use super::bordered::{Bordered, Lever};
 use super::condense::Columns;
+use super::cuts;
 use super::hold::{Hold, direction_near, vector};
 use super::layout::{Layout, Part};
+use super::mass_key::MassKey;
 use super::rotation::skew;
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
 use crate::error::StepFailure;
 use crate::linalg::{Definiteness, Factorisation};
 use crate::support::SlopeSupport;
-use crate::system::{project_matrix, project_vector};
+use crate::system::{project_matrix, project_part, project_vector};
 use nalgebra::{Matrix6, Vector3};
 
 /// Which matrix of an island.
@@ -29,6 +31,8 @@ struct CableBuffers {
     directions: [Vec<Vector3<f64>>; 2],
     /// Factors of the mass matrix; those of the step matrix are the cable's own.
     mass_factorisation: Factorisation,
+    /// Of these and the condensed mass matrix.
+    mass_key: MassKey,
     /// Mass matrix times accelerations.
     product: Vec<f64>,
 }
@@ -43,13 +47,16 @@ impl CableBuffers {
     }
 }
 
-/// Factored matrices of an island; nothing here outlives a host step but the buffers.
+/// Factored matrices of an island. Of what a host step leaves here only the condensed mass matrices
+/// serve the next one, and only if they are the same.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Matrices {
     cables: Vec<CableBuffers>,
     mass: Bordered,
     step: Bordered,
     mass_is_factored: bool,
+    /// Rows of the border, then its increments.
+    rows: Vec<f64>,
     /// c2 of the stage whose step matrix is factored; 0 = none.
     pub factored: f64,
 }
@@ -145,12 +152,13 @@ impl IslandEquations<'_, '_> {
             let (mut equations, _) = cable.equations();
             let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
             equations.force_and_matrix(input, 1.0, rows);
-            step.cable(c).read(&equations.system.step.matrix, &part.holds, &[]);
+            step.cable(c).read(&equations.system.step.matrix, &part.held, &[]);
+            cuts::cut(&part.cuts, &mut equations.system.step.matrix);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factorisation = &equations.system.step.factorisation;
-            let columns = Columns { holds: &part.holds, ..Columns::default() };
-            step.cable(c).complete(level, factorisation, columns, |x| project_vector(model, x));
+            let columns = Columns { held: &part.held, cuts: &part.cuts, ..Columns::default() };
+            step.cable(c).complete(level, factorisation, columns, |first, x| project_part(model, first, x));
             equations.system.mass.multiply(equations.system.level, &z[range], product);
             subtract(rows, product);
         }
@@ -165,17 +173,24 @@ impl IslandEquations<'_, '_> {
         if !self.matrices.mass_is_factored || clamped {
             let Matrices { cables: buffers, mass, .. } = &mut *self.matrices;
             for (c, ((cable, part), buffers)) in self.cables.iter_mut().zip(&layout.parts).zip(buffers).enumerate() {
-                let CableBuffers { directions, mass_factorisation, .. } = buffers;
+                let CableBuffers { directions, mass_factorisation, mass_key, .. } = buffers;
                 update_clamp_directions(cable, &part.holds, q, &mut directions[MatrixKind::Mass as usize]);
+                if mass_key.fits(cable, part) {
+                    continue;
+                }
+                mass_key.clear();
                 let Cable { model, system, .. } = &mut **cable;
                 let matrix = &mut system.step.matrix;
                 matrix.clear();
                 system.mass.add_to(matrix, 1.0);
-                mass.cable(c).read(matrix, &part.holds, &[]);
+                mass.cable(c).read(matrix, &part.held, &[]);
+                cuts::cut(&part.cuts, matrix);
                 project_matrix(model, matrix);
                 mass_factorisation.factor(system.level, matrix)?;
-                let columns = Columns { holds: &part.holds, ..Columns::default() };
-                mass.cable(c).complete(system.level, mass_factorisation, columns, |x| project_vector(model, x));
+                let columns = Columns { held: &part.held, cuts: &part.cuts, ..Columns::default() };
+                let project = |first: usize, x: &mut [f64]| project_part(model, first, x);
+                mass.cable(c).complete(system.level, mass_factorisation, columns, project);
+                mass_key.set(cable, part);
             }
             self.matrices.mass_is_factored = true;
         }
@@ -195,7 +210,7 @@ impl IslandEquations<'_, '_> {
     ) -> Result<(), StepFailure> {
         let layout = self.layout;
         let matrix = self.matrices.of(kind);
-        matrix.begin(layout.bodies.len(), 0);
+        matrix.begin(layout.bodies.len(), layout.parts.iter().map(|part| part.cuts.len()), 0);
         for (i, body) in layout.bodies.iter().enumerate() {
             let at = layout.body_at(i);
             let motion = layout.motion(i, &q[at..at + 6], &v[at..at + 6]);
@@ -251,9 +266,12 @@ impl IslandEquations<'_, '_> {
     /// increments of bodies are displacements and rotations in world axes.
     pub fn solve(&mut self, kind: MatrixKind, q: &[f64], rhs: &mut [f64]) {
         let layout = self.layout;
-        let Matrices { cables: buffers, mass, step, .. } = &mut *self.matrices;
+        let Matrices { cables: buffers, mass, step, rows, .. } = &mut *self.matrices;
         let matrix = if kind == MatrixKind::Mass { mass } else { step };
-        let (own, rows) = rhs.split_at_mut(layout.bodies_at);
+        let (own, of_bodies) = rhs.split_at_mut(layout.bodies_at);
+        rows.clear();
+        rows.extend_from_slice(of_bodies);
+        rows.resize(matrix.rows(), 0.0);
         for (c, ((cable, part), buffers)) in self.cables.iter_mut().zip(&layout.parts).zip(&*buffers).enumerate() {
             let cable = &mut **cable;
             let directions = &buffers.directions[kind as usize];
@@ -266,6 +284,7 @@ impl IslandEquations<'_, '_> {
                 }
             }
             let own = &mut own[part.range()];
+            cuts::take(&part.cuts, own, &mut rows[6 * (layout.bodies.len() + part.cut_at)..]);
             project_vector(&cable.model, own);
             let factors = (cable.system.level, buffers.factors(kind, &cable.system.step.factorisation));
             matrix.reduce(c, factors, levers(layout, part, q), own, rows);
@@ -277,9 +296,12 @@ impl IslandEquations<'_, '_> {
             }
         }
         matrix.solve(rows);
+        of_bodies.copy_from_slice(&rows[..of_bodies.len()]);
         for (c, ((cable, part), buffers)) in self.cables.iter().zip(&layout.parts).zip(&*buffers).enumerate() {
             let factors = (cable.system.level, buffers.factors(kind, &cable.system.step.factorisation));
-            let moved = matrix.expand(c, factors, &mut own[part.range()], rows).chunks_exact(3).map(vector);
+            let moved = matrix.expand(c, factors, &mut own[part.range()], rows);
+            cuts::give(&part.cuts, &moved[3 * part.holds.len()..], &mut own[part.range()]);
+            let moved = moved.chunks_exact(3).map(vector);
             for ((hold, factored), mut held) in part.holds.iter().zip(&buffers.directions[kind as usize]).zip(moved) {
                 if hold.slope {
                     let along = factored.dot(&vector(&own[hold.at..]));
@@ -320,10 +342,12 @@ impl IslandEquations<'_, '_> {
     }
 }
 
-/// Returns what the held coordinates of a cable follow at coordinates `q`.
+/// Returns what the coordinates of a cable in the border follow at coordinates `q`: those that are
+/// held, and slopes of cuts.
 fn levers(layout: &Layout, part: &Part, q: &[f64]) -> impl Iterator<Item = Lever> {
     let lever = |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
-    part.holds.iter().map(lever)
+    let first = layout.bodies.len() + part.cut_at;
+    part.holds.iter().map(lever).chain((0..part.cuts.len()).map(move |cut| Lever::of_own(first, cut)))
 }
 
 /// Sets the directions of a cable's clamps at coordinates `q` of the island in its supports, and

@@ -16,6 +16,14 @@ pub(super) struct Hold {
     pub slope: bool,
 }
 
+/// Three coordinates of a cable, position or slope of a node, that stand in the border of an
+/// island.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Held {
+    pub node: usize,
+    pub slope: bool,
+}
+
 /// Returns the vector at the beginning of a slice.
 pub(super) fn vector(x: &[f64]) -> Vector3<f64> {
     Vector3::new(x[0], x[1], x[2])

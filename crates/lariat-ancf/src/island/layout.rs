@@ -6,7 +6,8 @@
 use super::body::RigidBody;
 use super::clamp::Clamp;
 use super::coupling::CoupledInertia;
-use super::hold::{Hold, direction, vector};
+use super::cuts;
+use super::hold::{Held, Hold, direction, vector};
 use super::pin::PinConstraint;
 use super::rotation::{exponential, spin};
 use super::statics::Joints;
@@ -31,8 +32,15 @@ pub(super) struct Part {
     pub at: usize,
     /// Number of coordinates.
     pub size: usize,
-    /// Those that follow bodies.
+    /// Those that follow bodies, in the order of nodes.
     pub holds: Vec<Hold>,
+    /// Nodes at which it is cut, in ascending order.
+    pub cuts: Vec<usize>,
+    /// Those of the border: that follow bodies, then the slopes of cuts, the last cut first, so
+    /// that neighbours in the list are neighbours along the cable.
+    pub held: Vec<Held>,
+    /// The first block of the border, beyond the bodies, of its cuts.
+    pub cut_at: usize,
     /// Nodes on bodies with prescribed motion, which do work on the cable.
     pub driven: Vec<usize>,
 }
@@ -77,6 +85,8 @@ pub(super) struct Layout {
     pub joints: Joints,
     /// Offset of the bodies' coordinates.
     pub bodies_at: usize,
+    /// Number of blocks of the border that are those of cuts.
+    pub cut_blocks: usize,
     /// Time in s at which the step began, and its duration in s.
     start: f64,
     duration: f64,
@@ -87,22 +97,33 @@ impl Layout {
     pub fn begin(&mut self, cables: &[&mut Cable], bodies: &[RigidBody], pins: &[PinConstraint], dt: f64) {
         self.parts.resize_with(cables.len(), Part::default);
         let mut at = 0;
-        for (c, (part, cable)) in self.parts.iter_mut().zip(cables).enumerate() {
+        for (part, cable) in self.parts.iter_mut().zip(cables) {
             part.at = at;
             part.size = cable.positions().len();
             at += part.size;
             part.holds.clear();
             part.driven.clear();
-            for (i, pin) in pins.iter().enumerate().filter(|(_, p)| p.cable == c) {
-                if bodies[pin.body].is_driven() && bodies[pin.body].moves() {
-                    part.driven.push(pin.node);
-                }
-                let position = Hold { pin: i, node: pin.node, at: part.at + 6 * pin.node, slope: false };
-                part.holds.push(position);
-                if pin.direction.is_some() {
-                    part.holds.push(Hold { at: position.at + 3, slope: true, ..position });
-                }
+        }
+        for (i, pin) in pins.iter().enumerate() {
+            let part = &mut self.parts[pin.cable];
+            if bodies[pin.body].is_driven() && bodies[pin.body].moves() {
+                part.driven.push(pin.node);
             }
+            let position = Hold { pin: i, node: pin.node, at: part.at + 6 * pin.node, slope: false };
+            part.holds.push(position);
+            if pin.direction.is_some() {
+                part.holds.push(Hold { at: position.at + 3, slope: true, ..position });
+            }
+        }
+        self.cut_blocks = 0;
+        for (part, cable) in self.parts.iter_mut().zip(cables) {
+            part.holds.sort_unstable_by_key(|hold| (hold.node, hold.slope));
+            cuts::find(cable, &part.holds, (bodies, pins), &mut part.cuts);
+            part.held.clear();
+            part.held.extend(part.holds.iter().map(|&Hold { node, slope, .. }| Held { node, slope }));
+            part.held.extend(part.cuts.iter().rev().map(|&node| Held { node, slope: true }));
+            part.cut_at = self.cut_blocks;
+            self.cut_blocks += cuts::blocks(part.cuts.len());
         }
         self.bodies_at = at;
         self.bodies.clear();

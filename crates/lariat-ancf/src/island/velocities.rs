@@ -33,18 +33,15 @@ impl IslandDynamics<'_, '_> {
             *jump -= v;
         }
         let mut largest = 0.0f64;
-        for (c, part) in layout.parts.iter().enumerate() {
-            for node in 0..part.size / 6 {
-                let at = part.at + 6 * node;
-                let pin = layout.pins.iter().position(|p| p.cable == c && p.node == node);
-                if pin.is_none() {
-                    jump[at..at + 3].fill(0.0);
-                }
-                if pin.is_none_or(|pin| layout.clamps[pin].is_none()) {
-                    jump[at + 3..at + 6].fill(0.0);
-                }
-                largest = largest.max(vector(&jump[at..]).norm()).max(vector(&jump[at + 3..]).norm());
+        for part in &layout.parts {
+            // held coordinates alone have one
+            let mut end = part.at;
+            for hold in &part.holds {
+                jump[end..hold.at].fill(0.0);
+                end = hold.at + 3;
+                largest = largest.max(vector(&jump[hold.at..]).norm());
             }
+            jump[end..part.at + part.size].fill(0.0);
         }
         if largest > JUMP_ROUNDING {
             memory.valid = false;

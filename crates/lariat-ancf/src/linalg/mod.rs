@@ -49,4 +49,5 @@ pub use factorisation::Factorisation;
 pub use mass::{MassFactorisation, MassMatrix};
 pub use outcome::{Definiteness, Reason, SingularMatrix};
 pub use schur::SchurComplement;
+pub(crate) use schur::{GROUP, Span};
 pub(crate) use sparse::SparseSymmetric;

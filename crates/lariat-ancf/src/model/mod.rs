@@ -167,7 +167,7 @@ impl Model {
 
     /// The support of a node, if any.
     pub(crate) fn support(&self, node: usize) -> Option<&Support> {
-        self.supports.iter().find(|(n, _)| *n == node).map(|(_, s)| s)
+        self.supports.binary_search_by_key(&node, |(n, _)| *n).ok().map(|at| &self.supports[at].1)
     }
 
     /// Returns whether tension and shape have no reason to jump at a node between two elements, at

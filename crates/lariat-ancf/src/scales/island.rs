@@ -59,3 +59,8 @@ pub(crate) const MAX_SEARCHES: usize = 3;
 /// Largest number of times that the bounds of friction are set by the normal forces of the step.
 /// Unknown: twice the iterations of laws; what swings on is divided.
 pub(crate) const MAX_RENEWALS: usize = 40;
+
+/// Number of pins of a cable on bodies that move from which on it is cut at them. Measured by the
+/// test of `island/cuts.rs`: from here on the cut cable takes fewer products of blocks, with one to
+/// five elements between pins.
+pub(crate) const MIN_CUTS: usize = 13;

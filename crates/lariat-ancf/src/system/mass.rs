@@ -100,6 +100,11 @@ impl Mass {
         held
     }
 
+    /// Returns the matrix.
+    pub fn matrix(&self) -> &MassMatrix {
+        &self.matrix
+    }
+
     /// Returns the mass of all, added mass included.
     pub fn total(&self) -> f64 {
         self.matrix.total()

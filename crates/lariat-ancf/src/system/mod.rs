@@ -51,7 +51,7 @@ pub(crate) use carried::Carried;
 pub(crate) use discrete_gradient::CableStep;
 pub(crate) use dynamics::CableDynamics;
 pub(crate) use equations::Equations;
-pub(crate) use projection::{project_matrix, project_vector};
+pub(crate) use projection::{project_matrix, project_part, project_vector};
 pub(crate) use reading::{NodeTension, Pull, Reading, missing_at_ends};
 pub use reel::Sheave;
 pub(crate) use reel::{FeedElement, Law, Motor, MotorState, Source, Unknowns, Wheel, Winch, rates};

@@ -13,6 +13,16 @@ pub(crate) fn project_vector(model: &Model, x: &mut [f64]) {
     }
 }
 
+/// Removes held components from the part of a vector that begins with a node.
+pub(crate) fn project_part(model: &Model, first: usize, part: &mut [f64]) {
+    let from = model.supports.partition_point(|(node, _)| *node < first);
+    let end = first + part.len() / 6;
+    for (node, support) in model.supports[from..].iter().take_while(|(node, _)| *node < end) {
+        let at = 6 * (node - first);
+        support.project(&mut part[at..at + 6]);
+    }
+}
+
 /// Replaces `A` by `P A P + (I - P)`.
 pub(crate) fn project_matrix(model: &Model, a: &mut BlockTridiagonal) {
     for (node, support) in &model.supports {

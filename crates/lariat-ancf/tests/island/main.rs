@@ -16,4 +16,5 @@ mod reference;
 mod shapes;
 mod spin;
 mod statics;
+mod stretches;
 mod thrown;

@@ -4,7 +4,7 @@
 //!
 //! | file | per Rapier step |
 //! |---|---|
-//! | [`mod@host_step`], [`substepping`], [`mod@stiffness`] | the Rapier steps of a host step, and how many it has |
+//! | [`mod@host_step`], [`substepping`], [`held_bodies`], [`mod@stiffness`] | the Rapier steps of a host step, and how many it has |
 //! | [`predict`] | reads cables and bodies before the step |
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
@@ -31,6 +31,7 @@ mod breaks;
 pub(crate) mod budget;
 pub(crate) mod energy;
 pub(crate) mod groups;
+pub(crate) mod held_bodies;
 mod host_step;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
@@ -60,6 +61,7 @@ use crate::handle::CableHandle;
 use crate::islands::{Island, Islands};
 use crate::scales::step::MAX_TURN_ERROR;
 use budget::Remaining;
+use held_bodies::HeldBodies;
 pub use host_step::HostStep;
 use lariat_ancf::Snapshot;
 use lariat_ancf::coupling::Coupling;
@@ -86,6 +88,7 @@ pub(crate) struct Stepper {
     budget: Remaining,
     /// Buffers.
     buffers: integrate::Buffers,
+    held: HeldBodies,
     motions: PrescribedMotions,
 }
 
@@ -108,7 +111,7 @@ pub(crate) fn begin(
         stepper.predictions.iter_mut().for_each(|p| (p.budget, p.degraded) = (stepper.budget, false));
         let new = contents.held_bodies().filter(|&body| contents.records.get(body).is_none());
         new.chain(contents.records.handles()).for_each(|body| body::update_mass(world, body));
-        host.steps = substepping::count(contents, world, settings, f64::from(dt));
+        host.steps = substepping::count(contents, world, settings, &mut stepper.held, f64::from(dt));
         host.motions = core::mem::take(&mut stepper.motions);
         let attached = contents.attachments.values().map(|a| a.body);
         host.motions.read(attached, &contents.records, world, f64::from(dt));
@@ -135,7 +138,7 @@ pub(crate) fn predict_next(
     }
     if host.done > 0 {
         breaking::break_overloaded(contents, &mut stepper.events);
-        split_finer(contents, world, settings, host);
+        split_finer(contents, world, settings, &mut stepper.held, host);
     } else if host.dt > 0.0 {
         // one that is awake breaks where its prediction begins
         breaking::break_sleeping(contents, &mut stepper.events);
@@ -171,9 +174,15 @@ pub(crate) fn predict_next(
 }
 
 /// Splits the rest of a host step finer, if a body met another since it began.
-fn split_finer(contents: &Contents, world: &mut PhysicsWorld, settings: &Settings, host: &mut HostStep) {
+fn split_finer(
+    contents: &Contents,
+    world: &mut PhysicsWorld,
+    settings: &Settings,
+    held: &mut HeldBodies,
+    host: &mut HostStep,
+) {
     let max = settings.most_rapier_steps(f64::from(host.dt)) / host.steps;
-    let needed = substepping::count(contents, world, settings, f64::from(host.dt));
+    let needed = substepping::count(contents, world, settings, held, f64::from(host.dt));
     let finer = needed.div_ceil(host.steps).min(max);
     if finer > 1 && !host.is_divided() {
         (host.steps, host.done) = (host.steps * finer, host.done * finer);

@@ -68,52 +68,58 @@ use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::scales::body::MAX_HALF_ROTATION;
 use crate::scales::step::{DEVIATION_SHARE, JOINTED_STEPS, MAX_LOSS, MAX_PHASE, MAX_REBOUND, MIN_REACTION};
+use crate::step::held_bodies::HeldBodies;
 use crate::step::settings::{Settings, pieces};
-use crate::step::stiffness::{Stiffness, on_body};
+use crate::step::stiffness::{Part, Stiffness, length_and_compliance, parts};
 use ::nalgebra::Vector3;
 use lariat_ancf::coupling::Coupling;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Returns the number of Rapier steps for a host step of `dt` (s).
-pub(crate) fn count(contents: &Contents, world: &PhysicsWorld, settings: &Settings, dt: f64) -> u32 {
+/// Returns the number of Rapier steps for a host step of `dt` (s). `held` is read anew.
+pub(crate) fn count(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    settings: &Settings,
+    held: &mut HeldBodies,
+    dt: f64,
+) -> u32 {
     let min = settings.rapier_steps.max(1);
     let max = settings.most_rapier_steps(dt);
     if max <= min {
         return min;
     }
+    held.read(contents);
     let mut fastest = None;
     let mut needed = f64::from(min);
-    // once for each body, at the first of its attachments
-    let first = |a: &&Attachment| {
-        contents.attachments.values().find(|b| b.body == a.body).is_some_and(|b| core::ptr::eq(b, *a))
-    };
-    for a in contents.attachments.values().filter(|a| is_integrated(world, a.body)).filter(first) {
+    held.for_each(contents, |handle, own| {
+        if !is_integrated(world, handle) {
+            return;
+        }
         let fastest = *fastest.get_or_insert_with(|| proximity::fastest(world));
-        let body = Body::new(contents, world, a.body, dt);
+        let body = Body::new(contents, world, handle, (dt, own.parts));
         // most cables stay slack and hardly move whatever their body meets, and collisions take
         // longer to find
-        let most = f64::from(world.bodies[a.body].linvel().length()) + fastest;
-        let longest = on_body(contents, a.body).map(|a| max_deviation(contents, a)).fold(f64::INFINITY, f64::min);
+        let most = f64::from(world.bodies[handle].linvel().length()) + fastest;
+        let longest = own.attachments().map(|a| max_deviation(contents, a)).fold(f64::INFINITY, f64::min);
         if body.stiffness(most).sum == 0.0 && most * dt <= longest {
-            continue;
+            return;
         }
-        let collision = proximity::collision(world, a.body, (dt, fastest));
-        let held = || on_body(contents, a.body).any(|a| is_held(contents, a));
-        let Some(speed) = collision.or_else(|| held().then_some(0.0)) else { continue };
+        let collision = proximity::collision(world, handle, (dt, fastest));
+        let held = || own.attachments().any(|a| is_held(contents, a));
+        let Some(speed) = collision.or_else(|| held().then_some(0.0)) else { return };
         let steps = |stiffness: f64| dt * (stiffness * body.inverse_mass).sqrt() / MAX_PHASE;
         let stiffness = body.stiffness(speed);
         needed = needed.max(speed * dt / longest);
         if steps(stiffness.sum) > needed {
             needed = needed.max(steps(body.pushed(&stiffness, (dt, fastest))));
         }
-    }
-    let jointed = |a: &Attachment| is_integrated(world, a.body) && !proximity::is_unjointed(world, a.body);
-    if contents.attachments.values().any(jointed) {
+    });
+    if held.bodies().any(|body| is_integrated(world, body) && !proximity::is_unjointed(world, body)) {
         needed = needed.max(JOINTED_STEPS * f64::from(pieces(dt)));
     }
     let fastest = || fastest.unwrap_or_else(|| proximity::fastest(world));
-    let needed = needed.max(rotation(contents, world, dt)).max(pressed(contents, world, (dt, fastest)));
+    let needed = needed.max(rotation(held.bodies(), world, dt)).max(pressed(contents, world, (dt, fastest)));
     let needed = contents.cables.values().map(|slot| slot.cable.steps_of_reels(dt)).fold(needed, f64::max);
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)
@@ -149,15 +155,15 @@ fn pressed(contents: &Contents, world: &PhysicsWorld, (dt, fastest): (f64, impl 
 
 /// Returns the number of steps of `dt` (s) that attached bodies need so that none rotates by more
 /// than Rapier's linearised rotation can in a substep, or its impulse joints can turn a velocity.
-fn rotation(contents: &Contents, world: &PhysicsWorld, dt: f64) -> f64 {
+fn rotation(bodies: impl Iterator<Item = RigidBodyHandle>, world: &PhysicsWorld, dt: f64) -> f64 {
     let substeps = world.integration_parameters.num_solver_iterations.max(1) as f64;
-    let count = |a: &Attachment| {
-        let spin = world.bodies.get(a.body).filter(|body| body.is_dynamic()).map_or(0.0, |body| body.angvel().length());
-        let is_link = || world.multibody_joints.rigid_body_link(a.body).is_some();
-        let turned = proximity::is_unjointed(world, a.body) || is_link();
+    let count = |handle: RigidBodyHandle| {
+        let spin = world.bodies.get(handle).filter(|body| body.is_dynamic()).map_or(0.0, |body| body.angvel().length());
+        let is_link = || world.multibody_joints.rigid_body_link(handle).is_some();
+        let turned = proximity::is_unjointed(world, handle) || is_link();
         0.5 * f64::from(spin) * dt / substeps / if turned { MAX_HALF_ROTATION } else { MAX_LOSS }
     };
-    contents.attachments.values().map(count).fold(0.0, f64::max)
+    bodies.map(count).fold(0.0, f64::max)
 }
 
 /// Returns whether the body of an attachment has a reaction estimate against the force there.
@@ -176,7 +182,8 @@ fn max_deviation(contents: &Contents, a: &Attachment) -> f64 {
 
 /// A body that may deviate from its prediction.
 struct Body<'a> {
-    contents: &'a Contents,
+    /// The parts of its cables.
+    parts: &'a [Part],
     world: &'a PhysicsWorld,
     handle: RigidBodyHandle,
     /// Of the Rapier step, in s.
@@ -188,17 +195,22 @@ struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    fn new(contents: &'a Contents, world: &'a PhysicsWorld, handle: RigidBodyHandle, dt: f64) -> Self {
+    fn new(
+        contents: &Contents,
+        world: &'a PhysicsWorld,
+        handle: RigidBodyHandle,
+        (dt, parts): (f64, &'a [Part]),
+    ) -> Self {
         let inverse_mass = f64::from(world.bodies[handle].mass_properties().local_mprops.inv_mass);
         let reaction = split_spatial(&contents.records.reaction(handle)).0;
-        Body { contents, world, handle, dt, inverse_mass, reaction }
+        Body { parts, world, handle, dt, inverse_mass, reaction }
     }
 
     /// Returns what its taut cables do if it collides at a speed (m/s).
     fn stiffness(&self, speed: f64) -> Stiffness {
         let dt = self.dt;
         let change = MAX_REBOUND * speed * dt + 0.5 * self.reaction.norm() * self.inverse_mass * dt * dt;
-        Stiffness::of(self.contents, self.handle, (dt, change))
+        Stiffness::of(self.parts.iter(), (dt, change))
     }
 
     /// Returns the largest stiffness in N/m along the directions in which others may push it, if no
@@ -219,7 +231,14 @@ impl<'a> Body<'a> {
 /// rests: it has less kinetic energy than a strain of its cables by the force there.
 pub(super) fn resting_phase(contents: &Contents, world: &PhysicsWorld, a: &Attachment, h: f64) -> Option<f64> {
     let body = world.bodies.get(a.body).filter(|_| is_integrated(world, a.body) && is_held(contents, a))?;
-    let stiffness = Stiffness::of(contents, a.body, (h, 0.0)).sum;
+    let on_body = contents.attachments.values().filter(|b| b.body == a.body);
+    let of_attachment = |a: &Attachment| {
+        let Some(cable) = contents.slot(a.cable).map(|slot| &slot.cable) else { return 0.0 };
+        let sum = |[l, c]: [f64; 2], [length, compliance]: [f64; 2]| [l + length, c + compliance];
+        let between = |a: usize, b: usize| cable.elements()[a..b].iter().map(length_and_compliance).fold([0.0; 2], sum);
+        parts(cable, a, between).map(|part| Stiffness::of([part].iter(), (h, 0.0)).sum).sum()
+    };
+    let stiffness: f64 = on_body.map(of_attachment).sum();
     let (mass, speed) = (f64::from(body.mass()), f64::from(body.linvel().length()));
     let rests = mass * speed * speed * stiffness < a.reading.force.norm_squared();
     rests.then(|| h * (stiffness / mass).sqrt())

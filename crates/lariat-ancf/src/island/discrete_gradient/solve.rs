@@ -3,6 +3,8 @@
 
 use super::super::bordered::Lever;
 use super::super::condense::Columns;
+use super::super::cuts;
+use super::super::layout::Part;
 use super::coupled::complete_rows;
 use super::reels::Reels;
 use super::terms::Terms;
@@ -12,7 +14,7 @@ use crate::effect::EffectWork;
 use crate::error::StepFailure;
 use crate::one_leg::OneLeg;
 use crate::system::StepVectors;
-use crate::system::{CableStep, Equations, project_vector};
+use crate::system::{CableStep, Equations, project_part, project_vector};
 use crate::term::StepTerm;
 
 impl IslandStep<'_, '_> {
@@ -32,13 +34,14 @@ impl IslandStep<'_, '_> {
             own.pass_impulses(&buffers.rhs, rows);
             buffers.contact.pass_impulses(true, rows);
             let borders = buffers.contact.borders();
-            matrix.cable(strand).read(&equations.system.step.matrix, &part.holds, borders);
+            matrix.cable(strand).read(&equations.system.step.matrix, &part.held, borders);
+            cuts::cut(&part.cuts, &mut equations.system.step.matrix);
             equations.factor_to_solve()?;
             let (level, model) = (equations.system.level, equations.model);
             let factors = &equations.system.step.factorisation;
-            let beside =
-                Columns { holds: &part.holds, touched: borders, strand, pairs: &pairs.columns, own: &own.pairs };
-            matrix.cable(strand).complete(level, factors, beside, |x| project_vector(model, x));
+            let (pairs, own) = (&pairs.columns, &own.pairs);
+            let beside = Columns { held: &part.held, cuts: &part.cuts, touched: borders, strand, pairs, own };
+            matrix.cable(strand).complete(level, factors, beside, |first, x| project_part(model, first, x));
         }
         complete_rows(bodies, coupled, rows);
         Ok(())
@@ -48,17 +51,19 @@ impl IslandStep<'_, '_> {
     /// (s) with a formula.
     pub(super) fn factor_bodies(&mut self, (h, leg): (f64, OneLeg)) -> Result<(), StepFailure> {
         let StepBuffers { bodies, coupled, cables: own, matrix, pairs, .. } = &mut *self.buffers;
-        matrix.begin(bodies.len(), pairs.columns.len());
+        let parts = &self.layout.parts;
+        matrix.begin(bodies.len(), parts.iter().map(|part| part.cuts.len()), pairs.columns.len());
         for (i, body) in bodies.iter().enumerate() {
             matrix.add_inertia(i, &body.world_matrix());
         }
         let rotation = |i: usize| bodies[i].rotation;
         coupled.iter().for_each(|coupled| matrix.add_coupled(&coupled.turned(coupled.bodies.map(rotation))));
-        for (c, (cable, own)) in self.cables.iter().zip(own.iter()).enumerate() {
+        for (c, ((cable, own), part)) in self.cables.iter().zip(own.iter()).zip(parts).enumerate() {
             for hold in &own.holds {
                 matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * leg.b * h)));
             }
-            matrix.add_cable(c, levers(own, cable.step_buffers.contact.borders(), bodies.len()));
+            let borders = cable.step_buffers.contact.borders();
+            matrix.add_cable(c, levers(own, (part, self.layout.cut_blocks), borders, bodies.len()));
         }
         for (i, body) in bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -77,22 +82,26 @@ impl IslandStep<'_, '_> {
     fn solve_bordered(&mut self) {
         let StepBuffers { bodies, cables: own, matrix, rows, .. } = &mut *self.buffers;
         rows.resize(matrix.rows(), 0.0);
-        for (c, (cable, own)) in self.cables.iter_mut().zip(own.iter()).enumerate() {
+        let layout = self.layout;
+        for (c, ((cable, own), part)) in self.cables.iter_mut().zip(own.iter()).zip(&layout.parts).enumerate() {
             let CableStep { equations, buffers, .. } = cable.step_parts();
             equations.diagnostics.solves += 1;
             let StepVectors { contact, rhs, .. } = &mut *buffers;
+            cuts::take(&part.cuts, rhs, &mut rows[6 * (bodies.len() + part.cut_at)..]);
             project_vector(equations.model, rhs);
             let factors = (equations.system.level, &equations.system.step.factorisation);
-            matrix.reduce(c, factors, levers(own, contact.borders(), bodies.len()), rhs, rows);
+            let levers = levers(own, (part, layout.cut_blocks), contact.borders(), bodies.len());
+            matrix.reduce(c, factors, levers, rhs, rows);
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.lock(row);
         }
         matrix.solve(rows);
-        for (c, (cable, own)) in self.cables.iter_mut().zip(own.iter()).enumerate() {
+        for (c, ((cable, own), part)) in self.cables.iter_mut().zip(own.iter()).zip(&layout.parts).enumerate() {
             let CableStep { equations, buffers, .. } = cable.step_parts();
             let factors = (equations.system.level, &equations.system.step.factorisation);
             let moved = matrix.expand(c, factors, &mut buffers.rhs, rows);
+            cuts::give(&part.cuts, &moved[3 * own.holds.len()..], &mut buffers.rhs);
             for (hold, moved) in own.holds.iter().zip(moved.chunks_exact(3)) {
                 for x in 0..3 {
                     // a slope is free along its direction
@@ -126,10 +135,18 @@ impl IslandStep<'_, '_> {
     }
 }
 
-/// Returns what the coordinates of a cable in the border follow: those that are held, bodies that
-/// it touches, and the forces of its contacts with cables.
-fn levers<'a>(own: &'a CableBuffers, touched: &'a [Border], bodies: usize) -> impl Iterator<Item = Lever> + 'a {
+/// Returns what the coordinates of a cable in the border follow: those that are held, slopes of
+/// cuts, of which all cables have a number of blocks, bodies that it touches, and the forces of its
+/// contacts with cables.
+fn levers<'a>(
+    own: &'a CableBuffers,
+    (part, cut_blocks): (&'a Part, usize),
+    touched: &'a [Border],
+    bodies: usize,
+) -> impl Iterator<Item = Lever> + 'a {
     let held = own.holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
+    let cuts = (0..part.cuts.len()).map(move |cut| Lever::of_own(bodies + part.cut_at, cut));
     let touched = touched.iter().flat_map(|border| Lever::own(border.body));
-    held.chain(touched).chain(own.pairs.iter().map(move |&pair| Lever::contact(bodies, pair)))
+    let contacts = own.pairs.iter().map(move |&pair| Lever::of_own(bodies + cut_blocks, pair));
+    held.chain(cuts).chain(touched).chain(contacts)
 }
