@@ -212,9 +212,10 @@ impl SparseSymmetric {
         }
     }
 
-    /// Returns whether the factored matrix is positive definite.
-    pub fn is_positive_definite(&self) -> bool {
-        if self.is_dense { self.dense.is_positive_definite() } else { self.signs.iter().all(|sign| *sign > 0.0) }
+    /// Returns the number of negative eigenvalues of the factored matrix.
+    pub fn negative(&self) -> usize {
+        // unless it is dense, all pivots of a block have its sign
+        if self.is_dense { self.dense.negative() } else { 6 * self.signs.iter().filter(|sign| **sign < 0.0).count() }
     }
 }
 

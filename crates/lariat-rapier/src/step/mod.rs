@@ -46,7 +46,7 @@ pub(crate) mod sleep;
 mod stiffness;
 pub(crate) mod substepping;
 mod waking;
-mod water;
+pub(crate) mod water;
 
 use crate::body;
 use crate::body::prescribed_motion::PrescribedMotions;
