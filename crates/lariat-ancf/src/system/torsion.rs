@@ -146,8 +146,8 @@ impl StaticTorsion {
         self.scale * self.segments[segment].segment.stiffness
     }
 
-    /// Returns g of a segment: of its coordinates, at their place in the cable, and of the rotations
-    /// of bodies.
+    /// Returns g of a segment: of its coordinates, at their place in the cable, and of the
+    /// rotations of bodies.
     pub fn gradient(
         &self,
         segment: usize,

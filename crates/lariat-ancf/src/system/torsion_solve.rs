@@ -1,4 +1,5 @@
-//! Solving with what [torsion](super::torsion) adds to a factored step matrix, of a cable by itself.
+//! Solving with what [torsion](super::torsion) adds to a factored step matrix, of a cable by
+//! itself.
 //!
 //! # Equation
 //!

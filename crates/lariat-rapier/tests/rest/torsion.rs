@@ -34,7 +34,7 @@ fn turned(world: &PhysicsWorld, body: RigidBodyHandle) -> f64 {
 /// *Source.* Two torsion springs: K1 (2 pi n - a) = K2 a with K = GJ/L.
 #[test]
 fn a_bar_between_two_cables_turns_to_equal_torque() {
-    for (turns, above, below, length) in [(0.25, 0.05, 0.02, 1.0), (-0.4, 0.02, 0.2, 1.7), (2.3, 0.5, 0.5, 0.6)] {
+    for (turns, above, below, length) in [(0.25, 0.05, 0.02, 1.0), (-0.4, 0.02, 0.2, 1.7), (2.3, 0.03, 0.03, 0.6)] {
         let mut world = PhysicsWorld::new();
         // its weight would buckle the lower one
         world.gravity = Vector::ZERO;
@@ -68,12 +68,13 @@ fn a_bar_between_two_cables_turns_to_equal_torque() {
     }
 }
 
-/// A column between a clamp and a body that cannot turn is straight below Greenhill's torque, and stable; above it statics find it bent.
+/// A column between a clamp and a body that cannot turn is stable below Greenhill's torque, and above it is reported as unstable: the number of
+/// negative eigenvalues is that with the stiffness of the whole segment.
 ///
 /// *Source.* The characteristic equation of the clamped rod (Greenhill 1883): 8.98682 EI/L without an axial force.
 #[test]
-fn a_column_with_a_body_at_its_end_buckles_at_greenhills_torque() {
-    for (share, straight) in [(0.97, true), (1.03, false)] {
+fn a_column_with_a_body_at_its_end_is_stable_up_to_greenhills_torque() {
+    for (share, straight) in [(0.5, true), (0.99, true), (1.01, false), (1.2, false)] {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
         let end = body(&mut world, down(1.0), 1.0, 0.01);
@@ -85,12 +86,8 @@ fn a_column_with_a_body_at_its_end_buckles_at_greenhills_torque() {
         let column = set.insert(column.build().unwrap());
         set.attach(&world, column, At::End, end, Vector::ZERO, AttachmentKind::Clamp).unwrap();
         let found = set.equilibrium(&mut world).unwrap();
-        let cable = set.get(column).unwrap();
-        let aside = (0..cable.nodes()).map(|n| cable.node_position(n).xz().norm()).fold(0.0, f64::max);
-        println!("{share}: {aside} m aside, {:?}", found.cables[0].1);
-        assert!(found.is_stable());
-        assert_eq!(aside < 1e-6, straight, "{share} {aside}");
-        assert!(straight || aside > 0.02, "{share} {aside}");
+        println!("{share}: {:?}", found.cables[0].1);
+        assert_eq!(found.is_stable(), straight, "{share}");
     }
 }
 
@@ -148,7 +145,8 @@ fn a_bar_on_two_twisted_ropes_turns_as_a_bifilar_suspension() {
         }
         let angle = turned(&world, bar) * f64::signum(turns);
         let y = vector(world.bodies[bar].translation()).y;
-        let rises = y + length - (short - height(low));
+        let sag = 0.5 * mass * G * length / 1e7;
+        let rises = y + length + sag - (short - height(low));
         println!("{turns}: {angle} {low}, {y}, {rises}");
         assert!((angle / low - 1.0).abs() < 5e-3, "{angle} {low}");
         assert!(rises.abs() < 0.02 * (y + length), "{y} {rises}");

@@ -13,9 +13,9 @@
 //! step. The end is checked: forces and moments balance at every node and at every body, no element
 //! is folded, and the matrix is positive definite; a saddle is left by a small displacement.
 //!
-//! [Loads on bodies](load) may depend on where these are. [Joints](joint) between bodies are a potential of their multipliers, [over sheaves](sheaves)
-//! material runs from one equilibrium to the next, and [torsion](twists) couples the bodies that hold
-//! a cable.
+//! [Loads on bodies](load) may depend on where these are. [Joints](joint) between bodies are a
+//! potential of their multipliers, [over sheaves](sheaves) material runs from one equilibrium to
+//! the next, and [torsion](twists) couples the bodies that hold a cable.
 //!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
 //! symmetric: the error falls linearly.

@@ -238,7 +238,7 @@ impl<'a> Search<'a> {
         z.fill(0.0);
         let mut before = f64::INFINITY;
         for iteration in 1..=MAX_ITERATIONS {
-            loads.linearise(layout, trial);
+            let mut skew = loads.linearise(layout, trial);
             let mut equations = IslandEquations { cables: &mut *cables, layout, matrices };
             let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: 0.0 };
             twists::follow(equations.cables, layout, trial);
@@ -250,10 +250,15 @@ impl<'a> Search<'a> {
                 twists::add_torques(equations.cables, layout, c2, rhs);
                 twists.border(&mut equations, trial)?;
             }
-            equations.solve(MatrixKind::Step, trial, rhs);
-            if let Some(twists) = twists {
-                twists.complete(&equations, rhs);
-            }
+            let mut solve = |x: &mut [f64]| {
+                equations.solve(MatrixKind::Step, trial, x);
+                if let Some(twists) = twists {
+                    twists.complete(&equations, x);
+                }
+            };
+            skew.border(rhs.len(), c2, &mut solve);
+            solve(rhs);
+            skew.complete(rhs);
             let size = equations.norm(rhs);
             let slopes = equations.parts().map(|(c, part)| c.system.scales.extent(&rhs[part.range()]).1);
             let rotations = (0..layout.bodies.len()).map(|i| vector(&rhs[layout.body_at(i) + 3..]).norm());
