@@ -148,6 +148,7 @@ pub(crate) fn predict_next(
     loop {
         world.integration_parameters.dt = host.lengths().1;
         revert_pending(stepper, world);
+        water::take_off(contents, world, false);
         water::put_on(contents, world, settings, host);
         host.motions.advance(&mut contents.records, world, host.share());
         let outcome = predict_islands(stepper, contents, world, settings, host);
