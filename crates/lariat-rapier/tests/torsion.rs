@@ -384,17 +384,6 @@ fn a_disc_that_has_come_to_rest_sleeps_until_a_motor_is_set() {
     assert!((turned + Vector3::y() * 0.25 * TAU).norm() < 0.05, "{turned:?}");
 }
 
-/// Statics of twisted cables and bodies together are refused by name.
-///
-/// Reference: the contract.
-#[test]
-fn what_does_not_carry_torsion_is_refused() {
-    let (mut world, mut set, _) = hoist(EndSpin::Held);
-    set.step(&mut world).unwrap();
-    let error = set.equilibrium(&mut world).unwrap_err().to_string();
-    assert!(error.contains("torsion"), "{error}");
-}
-
 /// A winch takes a rope in on which a disc turns to and fro: of its swing the action stays, so that
 /// it turns faster and less far.
 ///

@@ -243,12 +243,12 @@ fn light_bodies_in_long_steps_make_no_energy() {
     }
 }
 
-/// A foam board that is let go askew: it comes to rest flat at 1/60 s; at steps far beyond its periods of heave and roll (0.1 s) it is never
+/// A foam board that is let go askew comes to rest flat, at host steps beyond its periods of heave and roll (80 ms) too; without drag it is never
 /// higher nor faster than its energy allows.
 ///
 /// *Source.* The energy of the displaced water, at most rho g V times its half length.
 #[test]
-fn a_light_board_comes_to_rest_and_is_bounded_at_long_steps() {
+fn a_light_board_comes_to_rest_at_long_steps_and_is_bounded() {
     for (dt, drag) in [(1.0 / 60.0, true), (0.1, true), (0.1, false)] {
         let start = RigidBodyBuilder::dynamic().rotation(Vector::new(0.3, 0.0, 0.5));
         let shape = ColliderBuilder::cuboid(0.5, 0.02, 0.3).density(40.0);
@@ -269,11 +269,7 @@ fn a_light_board_comes_to_rest_and_is_bounded_at_long_steps() {
         let body = tank.body();
         let tilt = (body.rotation() * Vector::Y).y;
         println!("{dt} {drag}: tilt {tilt} y {} spin {}", tank.y(), vector(body.angvel()).norm());
-        assert!(
-            dt > 0.05 || (tilt.abs() > 0.999 && (tank.y() - (0.02 - 0.0016)).abs() < 3e-3),
-            "{dt} {tilt} {}",
-            tank.y()
-        );
+        assert!(!drag || (tilt.abs() > 0.999 && (tank.y() - (0.02 - 0.0016)).abs() < 3e-3), "{dt} {tilt} {}", tank.y());
     }
 }
 

@@ -228,6 +228,7 @@ impl IslandEquations<'_, '_> {
         layout.coupled.iter().for_each(|coupled| matrix.add_coupled(coupled));
         if kind == MatrixKind::Step {
             layout.joints.add_stiffness(scale, &layout.bodies, layout.pose(q), matrix);
+            layout.stiffness.iter().for_each(|(body, own)| matrix.add_inertia(*body, &(own * scale)));
         }
         for (c, part) in layout.parts.iter().enumerate() {
             if kind == MatrixKind::Step {
@@ -244,22 +245,26 @@ impl IslandEquations<'_, '_> {
         matrix.factor()
     }
 
-    /// Returns whether the step matrix at `at` is positive definite: those of the cables,
-    /// condensed, and that of the bodies.
-    pub fn is_positive_definite(&mut self, at: &ForceInput<'_>, rhs: &mut [f64]) -> Result<bool, StepFailure> {
+    /// Returns the number of negative eigenvalues of the step matrix at `at`, of the cables,
+    /// condensed, and of the bodies; `None` where rounding leaves it uncertain.
+    pub fn negative_eigenvalues(&mut self, at: &ForceInput<'_>, rhs: &mut [f64]) -> Result<Option<usize>, StepFailure> {
         let layout = self.layout;
         let none = vec![0.0; layout.size()];
-        let mut definite = true;
+        let mut sum = Some(0);
         for (cable, part) in self.cables.iter_mut().zip(&layout.parts) {
             let range = part.range();
             let (mut equations, _) = cable.equations();
             let input = ForceInput { q: &at.q[range.clone()], v: &at.v[range.clone()], ..*at };
             equations.force_and_matrix(input, 1.0, &mut rhs[range]);
-            definite &= matches!(equations.factor()?, Definiteness::PositiveDefinite);
+            let own = match equations.factor()? {
+                Definiteness::PositiveDefinite => Some(0),
+                Definiteness::Indefinite { negative } => negative,
+            };
+            sum = sum.zip(own).map(|(sum, own)| sum + own);
         }
         self.cable_rows_and_matrices(at, &none, rhs)?;
         self.factor_bodies(MatrixKind::Step, at.scale, at.q, at.v, rhs)?;
-        Ok(definite && self.matrices.step.is_positive_definite())
+        Ok(sum.map(|sum| sum + self.matrices.step.negative()))
     }
 
     /// Solves in place: rows in, increments out, those of pinned coordinates included. The

@@ -13,7 +13,7 @@ use super::rotation::{exponential, spin};
 use super::statics::Joints;
 use crate::cable::Cable;
 use crate::scales::island::{CLOSING_SPEED, GAP_ROUNDING, REVERSED_COSINE, SHORTEST_CLOSING};
-use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 
 /// Returns the share of a gap (m) that closes in a step of `dt` (s).
 pub fn closing_share(gap: f64, dt: f64) -> f64 {
@@ -83,6 +83,8 @@ pub(super) struct Layout {
     rates: Vec<[Vector3<f64>; 2]>,
     /// Joints between the bodies, in statics alone: in motion an engine computes them.
     pub joints: Joints,
+    /// Stiffness of the loads on bodies that depend on where they are, in statics alone.
+    pub stiffness: Vec<(usize, Matrix6<f64>)>,
     /// Offset of the bodies' coordinates.
     pub bodies_at: usize,
     /// Number of blocks of the border that are those of cuts.

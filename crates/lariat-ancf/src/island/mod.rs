@@ -73,5 +73,5 @@ pub use layout::closing_share;
 pub use pin::PinConstraint;
 pub use pin_accounts::PinAccount;
 pub use reel::{Drum, Sheave};
-pub use statics::{FREE, JointFrame, Links, StaticJoint, equilibrium};
+pub use statics::{FREE, JointFrame, Links, LoadThere, PlacedLoad, StaticJoint, equilibrium};
 pub use step::Island;

@@ -76,11 +76,6 @@ impl Dense {
         Ok(())
     }
 
-    /// Returns whether the factored matrix is positive definite.
-    pub fn is_positive_definite(&self) -> bool {
-        (0..self.n).all(|k| self.factors[k * self.n + k] > 0.0)
-    }
-
     /// Returns the number of negative eigenvalues (Sylvester).
     pub fn negative(&self) -> usize {
         (0..self.n).filter(|&k| self.factors[k * self.n + k] < 0.0).count()

@@ -221,9 +221,10 @@ impl SparseSymmetric {
         self.order.start.windows(2).map(|column| column[1] - column[0]).map(|below| below * (below + 3) / 2).sum()
     }
 
-    /// Returns whether the factored matrix is positive definite.
-    pub fn is_positive_definite(&self) -> bool {
-        if self.is_dense { self.dense.is_positive_definite() } else { self.signs.iter().all(|sign| *sign > 0.0) }
+    /// Returns the number of negative eigenvalues of the factored matrix.
+    pub fn negative(&self) -> usize {
+        // unless it is dense, all pivots of a block have its sign
+        if self.is_dense { self.dense.negative() } else { 6 * self.signs.iter().filter(|sign| **sign < 0.0).count() }
     }
 }
 

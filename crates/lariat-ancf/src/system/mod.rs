@@ -57,6 +57,7 @@ pub use reel::Sheave;
 pub(crate) use reel::{FeedElement, Law, Motor, MotorState, Source, Unknowns, Wheel, Winch, rates};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 pub(crate) use step_vectors::StepVectors;
+pub(crate) use torsion::BodyEnd;
 pub(crate) use vectors::dot;
 
 use crate::contact::StaticContact;

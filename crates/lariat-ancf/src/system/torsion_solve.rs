@@ -1,4 +1,5 @@
-//! Solving with what [torsion](super::torsion) adds to a factored step matrix.
+//! Solving with what [torsion](super::torsion) adds to a factored step matrix, of a cable by
+//! itself.
 //!
 //! # Equation
 //!
@@ -12,7 +13,8 @@ use crate::linalg::Definiteness;
 impl Equations<'_> {
     /// Adds torsion to the factored step matrix; returns what that makes of a kind.
     pub(super) fn factor_torsion(&mut self, kind: Definiteness) -> Result<Definiteness, StepFailure> {
-        let Some(mut torsion) = self.system.static_torsion.take_if(|torsion| !torsion.is_empty()) else {
+        let Some(mut torsion) = self.system.static_torsion.take_if(|torsion| !torsion.is_empty() && !torsion.in_island)
+        else {
             return Ok(kind);
         };
         for own in &mut torsion.segments {

@@ -2,8 +2,8 @@
 
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Contact, Damping, Drag, Effects, EndSpin, Error, Fidelity, Flow, Integrator, Method,
-    Section, StepControl, Torsion, Vector3, Warning,
+    At, Cable, CableBuilder, Contact, Damping, Effects, EndSpin, Error, Fidelity, Integrator, Method, Section,
+    StepControl, Torsion, Vector3, Warning,
 };
 
 fn twisted(turns: f64) -> Torsion {
@@ -28,7 +28,7 @@ fn run(cable: &mut Cable, frames: usize) {
     (0..frames).for_each(|_| cable.step(1.0 / 60.0).unwrap());
 }
 
-/// Other methods, and an equilibrium in a flow are refused by name.
+/// Other methods are refused by name.
 ///
 /// *Source.* The contract.
 #[test]
@@ -39,12 +39,6 @@ fn what_does_not_carry_torsion_is_refused() {
         assert!(matches!(&error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("discrete-gradient"), "{error}");
     }
-    let drag =
-        Drag { diameter: Some(0.01), ..Drag::new(1.2, 1.2, 0.01, Flow { velocity: Vector3::z(), ..Flow::default() }) };
-    let effects = Effects { torsion: Some(twisted(1.0)), drag: Some(drag), ..Effects::default() };
-    let mut cable = clamped(None).effects(effects).build().unwrap();
-    let error = cable.equilibrium().unwrap_err();
-    assert!(matches!(error, Error::TorsionPlace { .. }), "{error}");
 }
 
 /// Fidelity engineering steps a cable with torsion, as built or given it later: by the discrete

@@ -5,24 +5,10 @@ use crate::contact;
 use crate::edit::{breaking, world_mark};
 use crate::error::Error;
 use crate::read::warnings;
-use crate::step::held_bodies::HeldBodies;
 use crate::step::{self, HostStep};
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
 impl CableSet {
-<<<<<<< HEAD
-=======
-    /// Returns how many Rapier steps a host step of `dt` (s) will have.
-    pub(crate) fn rapier_steps(&self, world: &PhysicsWorld, dt: f64) -> f64 {
-        f64::from(step::substepping::count(&self.contents, world, &self.settings, &mut HeldBodies::default(), dt))
-    }
-
-    /// Returns whether a cable is attached to a body, which is then integrated with it.
-    pub(crate) fn moves(&self, body: RigidBodyHandle) -> bool {
-        self.contents.held_bodies().any(|held| held == body)
-    }
-
->>>>>>> bridge
     /// Advances cables and world by a host step of `world.integration_parameters.dt`, split into
     /// Rapier steps as the [`Settings`](crate::Settings) say.
     ///

@@ -5,6 +5,9 @@
 //! body. Fixed, kinematic and disabled bodies hold their cables where they are. Everything is
 //! written back only when all islands are in equilibrium.
 //!
+//! Water is at rest but for its current: the load of a body in it depends on where this is
+//! ([`crate::water`]), so that a float comes to its draught.
+//!
 //! # Validity
 //! Bodies are where their [joints](joints) allow; those that joints connect to a body with a cable
 //! move with it. Over sheaves runs what the pulls ask for; a drum must be locked in its rotation,
@@ -31,7 +34,7 @@ use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::islands::Islands;
-use crate::step::reels;
+use crate::step::{self, reels};
 use contacts::check_contacts;
 use lariat_ancf::{Cable, EquilibriumOptions, EquilibriumReport};
 use rapier::dynamics::RigidBodyHandle;
@@ -56,6 +59,7 @@ pub(crate) fn equilibrium(
     options: EquilibriumOptions,
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
+    step::water::begin(contents);
     contents.held_bodies().for_each(|body| give_mass(world, body));
     let mut islands = Islands::default();
     let found = islands.update(contents, world, &[], &[]);
@@ -85,6 +89,12 @@ pub(crate) fn equilibrium(
     }
     reels::follow(contents);
     read_forces(contents, world);
+    if let Some(water) = &mut contents.water {
+        for (handle, _) in &poses {
+            let own = forces.iter().filter(|force| force.body == *handle);
+            water.rest(world, *handle, &own.map(|force| force.force).sum());
+        }
+    }
     out.moved = poses.into_iter().map(|(handle, _)| handle).collect();
     Ok(out)
 }

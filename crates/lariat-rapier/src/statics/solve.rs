@@ -9,8 +9,9 @@ use crate::convert::{rotation, to_pose, vector};
 use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::islands::{Island, Member};
+use crate::water::StillWater;
 use ::nalgebra::{Matrix3, Vector3};
-use lariat_ancf::island::{self, Links, RigidBody, Sheave};
+use lariat_ancf::island::{self, Links, PlacedLoad, RigidBody, Sheave};
 use lariat_ancf::{At, Cable, EquilibriumFailure, EquilibriumOptions, Motion};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::{Pose, Vector};
@@ -82,7 +83,13 @@ pub(super) fn solve(
             }
         });
     }
-    let links = Links { pins: &island.pins, joints: &joints, sheaves: &sheaves, drums: &island.drums };
+    let in_water = island.members.iter().enumerate().filter_map(|(i, member)| {
+        let (Member::Body(body), Some(water)) = (member, &contents.water) else { return None };
+        Some((i, water.still(world, *body)?))
+    });
+    let in_water: Vec<(usize, StillWater)> = in_water.collect();
+    let loads: Vec<(usize, &dyn PlacedLoad)> = in_water.iter().map(|(i, load)| (*i, load as &dyn PlacedLoad)).collect();
+    let links = Links { pins: &island.pins, joints: &joints, sheaves: &sheaves, drums: &island.drums, loads: &loads };
     let reports = if members.is_empty() && sheaves.is_empty() {
         cables
             .iter_mut()

@@ -47,7 +47,7 @@ pub(crate) mod sleep;
 mod stiffness;
 pub(crate) mod substepping;
 mod waking;
-mod water;
+pub(crate) mod water;
 
 use crate::body;
 use crate::body::prescribed_motion::PrescribedMotions;
@@ -151,6 +151,7 @@ pub(crate) fn predict_next(
     loop {
         world.integration_parameters.dt = host.lengths().1;
         revert_pending(stepper, world);
+        water::take_off(contents, world, false);
         water::put_on(contents, world, settings, host);
         host.motions.advance(&mut contents.records, world, host.share());
         let outcome = predict_islands(stepper, contents, world, settings, host);

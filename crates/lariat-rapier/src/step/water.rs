@@ -14,8 +14,8 @@ use crate::step::HostStep;
 use crate::step::settings::Settings;
 use rapier::pipeline::PhysicsWorld;
 
-/// Begins a host step: the water has the time of the cables.
-pub(super) fn begin(contents: &mut Contents) {
+/// Begins a host step, or statics: the water has the time of the cables.
+pub(crate) fn begin(contents: &mut Contents) {
     let Contents { water: Some(water), cables, .. } = contents else { return };
     let latest = cables.values().map(|slot| slot.cable.time()).fold(f64::NEG_INFINITY, f64::max);
     if latest.is_finite() {

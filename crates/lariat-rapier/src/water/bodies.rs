@@ -3,9 +3,12 @@
 use super::hull::Hull;
 use super::immersed::Immersed;
 use super::member::{Input, Member, WaterForce};
+use super::still::StillWater;
 use crate::convert::{rotation, vector};
 use crate::error::Error;
+use ::nalgebra::Vector3;
 use lariat_ancf::Water;
+use lariat_ancf::island::PlacedLoad;
 use rapier::dynamics::{MassProperties, RigidBodyHandle};
 use rapier::math::{Real, Vector};
 use rapier::pipeline::PhysicsWorld;
@@ -125,6 +128,18 @@ impl BodiesInWater {
         self.members.iter().find(|m| m.body == body).map(|m| m.work)
     }
 
+    /// Returns the largest angular frequency in rad/s with which a body heaves that the surface
+    /// reaches in a step of `dt` (s): that of its area through the centroid.
+    pub(crate) fn fastest_heave(&self, world: &PhysicsWorld, dt: f64) -> f64 {
+        let Some(surface) = &self.water.flow.surface else { return 0.0 };
+        let (sea, gravity) = (surface.sea(), vector(world.gravity).norm());
+        let of = |member: &Member| {
+            let body = world.bodies.get(member.body).filter(|body| body.is_dynamic() && !body.is_sleeping());
+            body.map_or(0.0, |body| member.heave(body, &sea, (self.time, dt), (self.water.density, gravity)))
+        };
+        self.members.iter().map(of).fold(0.0, f64::max)
+    }
+
     /// Adds the forces of the water over a Rapier step to those of the user, from `from` (s) after
     /// the time of the water, of length `h` (s). `coupled` says which bodies are integrated with
     /// cables; a body that moves faster than `sleep_speed` (m/s) does not fall asleep. Bodies that
@@ -147,8 +162,11 @@ impl BodiesInWater {
         let further = 0.5 * h / world.integration_parameters.num_solver_iterations.max(1) as f64;
         for member in members {
             let Some(body) = world.bodies.get_mut(member.body) else { continue };
-            if !body.is_dynamic() || !body.is_enabled() || (body.is_sleeping() && !moves) {
+            if !body.is_dynamic() || !body.is_enabled() {
                 member.forget();
+                continue;
+            }
+            if body.is_sleeping() && !moves {
                 continue;
             }
             let lead = if coupled(member.body) { 0.0 } else { further };
@@ -169,14 +187,45 @@ impl BodiesInWater {
         }
     }
 
-    /// Returns the force of the water on a body as it is at a time in s, without a wave and with
-    /// drag as of a body at rest: what statics take. `None` for a body that is not in it.
-    pub fn at_rest(&self, world: &PhysicsWorld, body: RigidBodyHandle, time: f64) -> Option<WaterForce> {
-        let member = self.members.iter().find(|m| m.body == body)?;
+    /// Returns the load of the water at rest on a body, wherever this is, as of now; `None` for one
+    /// that is not in it.
+    pub(crate) fn still(&self, world: &PhysicsWorld, body: RigidBodyHandle) -> Option<StillWater> {
+        let member = self.members.iter().find(|m| m.body == body)?.clone();
+        let own = world.bodies.get(body)?;
+        let water = self.without_wave();
+        let sea = water.flow.surface.as_ref().map(|surface| surface.sea());
+        let (centre, scale) = (vector(own.local_center_of_mass()), f64::from(own.gravity_scale()));
+        Some(StillWater { member, water, sea, gravity: vector(world.gravity), time: self.time, centre, scale })
+    }
+
+    /// Remembers that a body is at rest at its place under these forces, those of the user, and
+    /// `further` (N): the cables balance them.
+    pub(crate) fn rest(&mut self, world: &PhysicsWorld, handle: RigidBodyHandle, further: &Vector3<f64>) {
+        let Some(load) = self.still(world, handle) else { return };
+        let Some(body) = world.bodies.get(handle) else { return };
+        let place = (vector(body.center_of_mass()), rotation(*body.rotation()));
+        let known = load.at(&place.0, &place.1).force
+            + vector(world.gravity) * (f64::from(body.mass()) * load.scale)
+            + vector(body.user_force())
+            + further;
+        let drag = self.at_rest(world, handle, self.time).map_or(Vector3::zeros(), |force| force.drag);
+        let of = |member: &&mut Member| member.body == handle;
+        self.members.iter_mut().find(of).into_iter().for_each(|member| member.rest(known, drag));
+    }
+
+    fn without_wave(&self) -> Water {
         let mut water = self.water.clone();
         if let Some(surface) = &mut water.flow.surface {
             surface.wave = None;
         }
+        water
+    }
+
+    /// Returns the force of the water on a body as it is at a time in s, without a wave and with
+    /// drag as of a body at rest: what statics take. `None` for a body that is not in it.
+    pub fn at_rest(&self, world: &PhysicsWorld, body: RigidBodyHandle, time: f64) -> Option<WaterForce> {
+        let member = self.members.iter().find(|m| m.body == body)?;
+        let water = self.without_wave();
         let sea = water.flow.surface.as_ref().map(|surface| surface.sea());
         let gravity = vector(world.gravity);
         let input = Input { water: &water, sea: sea.as_ref(), gravity, time, h: 0.0, lead: 0.0 };

@@ -6,6 +6,7 @@ use super::immersed::Immersed;
 use crate::convert::{rotation, symmetric_inertia, to_vector, vector};
 use crate::scales::water::{HEIGHT_ROUNDS, SAME_DRAG, SMALL_ANGLE, SMALLEST_RISE, STEP_ROUNDS};
 use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use lariat_ancf::island::LoadThere;
 use lariat_ancf::{Sea, Water};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::math::Vector;
@@ -113,6 +114,12 @@ impl Member {
         (self.memory, self.acting) = (Memory::default(), None);
     }
 
+    /// Remembers rest under known forces (N), and drag, that others balance.
+    pub(super) fn rest(&mut self, known: Vector3<f64>, drag: Vector3<f64>) {
+        // the length of a step in which nothing changed does not matter
+        self.memory = Memory { velocity: Vector3::zeros(), step: 1.0, known, unknown: -known, drag };
+    }
+
     /// Returns the speed in m/s that no point of the body exceeds.
     pub(super) fn fastest(&self, body: &RigidBody) -> f64 {
         let arm = (self.hull.centre() - vector(body.local_center_of_mass())).norm() + self.hull.radius();
@@ -122,6 +129,65 @@ impl Member {
     /// Returns the force on the body as it is, without a step.
     pub(super) fn at_rest(&self, body: &RigidBody, input: &Input<'_>) -> WaterForce {
         Member { memory: Memory::default(), ..self.clone() }.force(body, input).0
+    }
+
+    /// Returns the load on the body at rest with its centre of mass at a point (m) and an attitude:
+    /// without a wave. It has a potential where there is no drag:
+    ///
+    /// ```text
+    /// E = rho g V_s d, or rho V g.x without a surface;  + a g.x        d: depth of the centroid of V_s
+    /// ```
+    pub(super) fn still(
+        &self,
+        input: &Input<'_>,
+        (local, scale): (&Vector3<f64>, f64),
+        (centre, rotation): (&Vector3<f64>, &UnitQuaternion<f64>),
+    ) -> LoadThere {
+        let &Input { water, sea, gravity, time, .. } = input;
+        let arm = rotation * (self.hull.centre() - local);
+        let wet = self.wet(input, &(centre + arm), rotation);
+        let pressure = gravity * (-water.density * wet.volume);
+        let lever = rotation * (wet.centre - local);
+        let share = if self.floating > 0.0 { (wet.volume / self.floating).min(1.0) } else { 0.0 };
+        let relative = rotation.inverse() * -water.current(time, &(centre + arm));
+        let coefficient = self.immersed.drag_area * (0.5 * water.density * share);
+        let drag = rotation * (coefficient.component_mul(&relative) * -relative.norm());
+        let weight = gravity * (-scale * self.added);
+        let of_water = match sea {
+            Some(sea) => gravity.norm() * sea.depth(time, &(centre + lever)),
+            None => gravity.dot(&(centre + lever)),
+        };
+        let energy = water.density * wet.volume * of_water - weight.dot(centre);
+        LoadThere {
+            force: pressure + drag + weight,
+            moment: lever.cross(&pressure) + arm.cross(&drag),
+            energy: (relative == Vector3::zeros() || self.immersed.drag_area == Vector3::zeros()).then_some(energy),
+        }
+    }
+
+    /// Returns the angular frequency in rad/s of heave, `sqrt(rho g A/m)` with the area A of the
+    /// surface through the centroid, of a body that the surface reaches within `dt` (s).
+    pub(super) fn heave(
+        &self,
+        body: &RigidBody,
+        sea: &Sea,
+        (time, dt): (f64, f64),
+        (density, gravity): (f64, f64),
+    ) -> f64 {
+        let turn = rotation(*body.rotation());
+        let centre = vector(body.translation()) + turn * self.hull.centre();
+        let reach = self.hull.radius() + dt * (vector(body.linvel()).norm() + 0.5 * gravity * dt);
+        if sea.depth(time, &centre).abs() > reach {
+            return 0.0;
+        }
+        let (normal, small) = (turn.inverse() * sea.up(), SMALL_ANGLE * self.hull.radius());
+        let [below, above] = [small, -small].map(|depth| self.hull.below(&normal, depth).volume);
+        (density * gravity * (below - above) / (2.0 * small * f64::from(body.mass()))).sqrt()
+    }
+
+    /// Returns the length in m that goes with a radian.
+    pub(super) fn radius(&self) -> f64 {
+        self.hull.radius()
     }
 
     /// Adds the force of a step to that of the user.

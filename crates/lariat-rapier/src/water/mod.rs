@@ -53,8 +53,9 @@
 //!   makes; added mass does not depend on frequency, and is alike in all directions: one for each
 //!   axis would make Rapier's mass a matrix, which it has not.
 //! - The added mass of a body that leaves the water stays in its mass. No slamming.
-//! - Steps of less than half a period of heave and roll. Beyond that the motion of a light float is
-//!   bounded by its energy, but what does not damp within a step goes on.
+//! - Rapier steps of less than half a period of heave and roll, into which host steps are split
+//!   ([`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps)). Beyond that the motion of
+//!   a light float is bounded by its energy, but what does not damp within a step goes on.
 //! - No lift, and no moment of drag but that about the centroid.
 //! - The volume is that of the [colliders](hull), exact for balls, boxes and meshes at every
 //!   attitude; cylinders, cones and capsules are prisms of the same volume.
@@ -79,9 +80,11 @@ pub mod drag;
 pub mod hull;
 mod immersed;
 mod member;
+mod still;
 
 pub use bodies::BodiesInWater;
 pub use hull::Hull;
 pub use immersed::Immersed;
 pub use lariat_ancf::{Surface, Water, Wave};
 pub use member::WaterForce;
+pub(crate) use still::StillWater;

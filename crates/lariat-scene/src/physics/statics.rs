@@ -45,7 +45,8 @@ impl Physics {
             let (_, moment) = load.at(0.0, fully);
             self.world.bodies[self.bodies[load.body]].add_torque(to_vector(&moment), true);
         }
-        let found = self.equilibrium_in_water(scene, forces)?;
+        let found = self.cables.equilibrium_under(&mut self.world, &forces);
+        let found = found.map_err(|error| self.explain(scene, 0.0, error))?;
         self.settled(scene, &found)
     }
 

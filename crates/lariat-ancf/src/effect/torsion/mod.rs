@@ -27,6 +27,7 @@
 //! | `curve` | what a change of the mesh does to the twist |
 //! | `stranded` | torque by tension of a stranded rope |
 //! | `segment` | segments of a cable, their torques, and what the state holds of them |
+//! | `spin` | spin of a body about the direction of a clamp |
 //! | `rank` | the solution with K g g^T added to the matrix |
 //!
 //! # Validity
@@ -57,6 +58,7 @@ pub(crate) mod lengths;
 mod pair;
 pub(crate) mod rank;
 pub(crate) mod segment;
+pub(crate) mod spin;
 pub(crate) mod stranded;
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ use super::body::BodyStep;
 use super::holds::HoldStep;
 use crate::effect::torsion::rank::RankUpdate;
 use crate::effect::torsion::segment::Segment;
+use crate::effect::torsion::spin::spun;
 use crate::island::hold::vector;
 use crate::island::layout::Layout;
 use crate::scales::effect::SMALL_TURN;
@@ -147,15 +148,7 @@ fn direction(layout: &Layout, hold: &HoldStep, time: f64) -> Vector3<f64> {
 /// direction of a clamp.
 pub(super) fn turned_since(then: [f64; 4], body: &BodyStep, hold: &HoldStep, layout: &Layout, time: f64) -> f64 {
     let then = UnitQuaternion::new_unchecked(Quaternion::new(then[0], then[1], then[2], then[3]));
-    if then == body.rotation {
-        return 0.0;
-    }
-    let local = direction(layout, hold, time);
-    let turn = body.rotation * then.inverse();
-    let mean = (then * local + body.rotation * local) * 0.5;
-    // the Cayley vector of the rotation is twice its vector part over its scalar part
-    let along = turn.imag().dot(&mean) * turn.scalar().signum();
-    2.0 * along.atan2(turn.scalar().abs())
+    spun(&then, &body.rotation, &direction(layout, hold, time))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The equilibrium of a cable by itself: the sequence of attempts, see [`statics`](crate::statics),
 //! and with drag the search of an island without bodies.
 
+use super::load::Loads;
 use super::search::Search;
 use crate::cable::Cable;
 use crate::cable::Snapshot;
@@ -21,8 +22,7 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] if none is found; the cable is then as before. [`Error::Attached`]
-    /// for a cable with [attached](crate::coupling::Coupling::attach) nodes,
-    /// [`Error::TorsionPlace`] for one that is twisted in a flow.
+    /// for a cable with [attached](crate::coupling::Coupling::attach) nodes.
     pub fn equilibrium(&mut self) -> Result<EquilibriumReport, Error> {
         self.equilibrium_with(EquilibriumOptions::default())
     }
@@ -38,10 +38,6 @@ impl Cable {
         };
         self.check_complete()?;
         require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
-        if self.system.forces.drive() && !self.segments().is_empty() {
-            let by = "by an equilibrium in a flow, or under a force of your own".to_string();
-            return Err(Error::TorsionPlace { cable: self.name().to_string(), by });
-        }
         if let Some(resultant) = unheld(&self.model) {
             return Err(no_equilibrium(self, EquilibriumFailure::NotHeld, resultant, 0));
         }
@@ -178,7 +174,7 @@ impl Cable {
     fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let start = self.snapshot.clone();
         let found = self.come_to_rest(budget);
-        if found.is_ok() || self.effects().contact.is_some() {
+        if found.is_ok() || self.effects().contact.is_some() || self.effects().torsion.is_some() {
             return found;
         }
         self.snapshot = start;
@@ -191,7 +187,7 @@ impl Cable {
         let loads = self.model.loads.clone();
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
         let cables = &mut [&mut *self];
-        let mut search = Search::new(cables, &[], (&[], &[]), budget.tolerance);
+        let mut search = Search::new(cables, &[], (&[], &[], Loads::default()), budget.tolerance);
         let outcome = search.run(cables, budget.left());
         self.model.loads = loads;
         self.snapshot.state.q.copy_from_slice(&search.q);

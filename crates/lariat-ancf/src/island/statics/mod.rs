@@ -13,8 +13,9 @@
 //! step. The end is checked: forces and moments balance at every node and at every body, no element
 //! is folded, and the matrix is positive definite; a saddle is left by a small displacement.
 //!
-//! [Joints](joint) between bodies are a potential of their multipliers, and [over sheaves](sheaves)
-//! material runs from one equilibrium to the next.
+//! [Loads on bodies](load) may depend on where these are. [Joints](joint) between bodies are a
+//! potential of their multipliers, [over sheaves](sheaves) material runs from one equilibrium to
+//! the next, and [torsion](twists) couples the bodies that hold a cable.
 //!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
 //! symmetric: the error falls linearly.
@@ -38,11 +39,15 @@
 
 mod alone;
 mod joint;
+mod load;
 mod search;
 mod sheaves;
+mod twists;
 
 pub(super) use joint::Joints;
 pub use joint::{FREE, JointFrame, StaticJoint};
+use load::Loads;
+pub use load::{LoadThere, PlacedLoad};
 
 use super::body::RigidBody;
 use super::hold::vector;
@@ -68,6 +73,8 @@ pub struct Links<'a> {
     pub sheaves: &'a [Sheave],
     /// Drums that ends of cables are on.
     pub drums: &'a [Drum],
+    /// Loads on bodies that depend on where they are, with the numbers of the bodies.
+    pub loads: &'a [(usize, &'a dyn PlacedLoad)],
 }
 
 /// Moves cables and bodies, held together by `links`, to static equilibrium under gravity, the full
@@ -82,21 +89,20 @@ pub struct Links<'a> {
 pub fn equilibrium(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],
-    Links { pins, joints, sheaves, drums }: Links<'_>,
+    Links { pins, joints, sheaves, drums, loads }: Links<'_>,
     options: EquilibriumOptions,
 ) -> Result<EquilibriumReport, Error> {
     require("equilibrium tolerance", options.tolerance, options.tolerance > 0.0, "> 0")?;
     check(cables, bodies, pins)?;
     joints.iter().try_for_each(|joint| joint.check(bodies.len()))?;
+    for (body, _) in loads {
+        require("body of a load", *body as f64, *body < bodies.len(), "the index of a body of the island")?;
+    }
     reel::check(cables, bodies, pins, (sheaves, drums))?;
     if let Some(drum) = drums.iter().find(|drum| drum.can_turn(cables, bodies, pins)) {
         let reason = "its end is on a drum that is free to turn, which rests only where something else balances the \
                       pull: lock its rotation and that of what holds the eye";
         return Err(Error::ReelPlace { cable: cables[drum.cable.0].name().to_string(), reason });
-    }
-    if let Some(cable) = cables.iter().find(|cable| !cable.segments().is_empty()) {
-        let by = "by an equilibrium of cables and bodies together".to_string();
-        return Err(Error::TorsionPlace { cable: cable.name().to_string(), by });
     }
     let before: Vec<Cable> = cables.iter().map(|cable| (**cable).clone()).collect();
     for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
@@ -114,7 +120,7 @@ pub fn equilibrium(
             cable.system.forces.hold(now);
         }
     }
-    let outcome = settle(cables, &mut still, (pins, joints, sheaves), options);
+    let outcome = settle(cables, &mut still, (pins, joints, sheaves, Loads(loads)), options);
     for (cable, before) in cables.iter_mut().zip(before) {
         if outcome.is_err() {
             **cable = before;
@@ -138,14 +144,14 @@ pub fn equilibrium(
 fn settle(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],
-    (pins, joints, sheaves): (&[PinConstraint], &[StaticJoint], &[Sheave]),
+    (pins, joints, sheaves, loads): (&[PinConstraint], &[StaticJoint], &[Sheave], Loads<'_>),
     options: EquilibriumOptions,
 ) -> Result<EquilibriumReport, Error> {
     let (mut pins, mut passing) = (pins.to_vec(), Passing::new(sheaves, cables));
     let mut iterations = 0;
     loop {
         cables.iter_mut().for_each(|cable| cable.begin_static_contact());
-        let search = Search::new(cables, bodies, (&pins, joints), options.tolerance);
+        let search = Search::new(cables, bodies, (&pins, joints, loads), options.tolerance);
         let mut together = Together { cables, search, iterations: options.iterations };
         let outcome = find(&mut together);
         let search = together.search;
@@ -158,6 +164,7 @@ fn settle(
             iterations,
         };
         let stable = outcome.map_err(|failure| failed(cables[0], failure))?;
+        twists::follow(cables, &search.layout, &search.q);
         for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
             cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
             cable.set_at_rest();
@@ -179,14 +186,14 @@ fn settle(
 }
 
 /// The search for the equilibrium of an island.
-struct Together<'a, 'b> {
+struct Together<'a, 'b, 'c> {
     cables: &'a mut [&'b mut Cable],
-    search: Search,
+    search: Search<'c>,
     /// Largest number of steps of one search.
     iterations: usize,
 }
 
-impl Continued for Together<'_, '_> {
+impl Continued for Together<'_, '_, '_> {
     type Found = bool;
     type Failure = EquilibriumFailure;
     type Shape = (Vec<f64>, Layout);

@@ -1,6 +1,8 @@
 //! The iteration to equilibrium: proximal steps, and the checks of their end.
 
 use super::joint::{Joints, StaticJoint};
+use super::load::Loads;
+use super::twists::{self, Twists};
 use crate::cable::Cable;
 use crate::effect::acts::ForceInput;
 use crate::error::{EquilibriumFailure, StepFailure};
@@ -21,7 +23,7 @@ use crate::system::project_vector;
 use nalgebra::Vector3;
 
 /// The iteration.
-pub(super) struct Search {
+pub(super) struct Search<'a> {
     pub layout: Layout,
     matrices: Matrices,
     time: f64,
@@ -41,15 +43,19 @@ pub(super) struct Search {
     has_potential: bool,
     /// Whether something drives the cables at rest, as a flow does.
     driven: bool,
+    /// Present where a cable has torsion.
+    twists: Option<Twists>,
+    /// Loads on bodies that depend on where they are.
+    loads: Loads<'a>,
     pub steps: usize,
     pub residual: f64,
 }
 
-impl Search {
+impl<'a> Search<'a> {
     pub fn new(
         cables: &mut [&mut Cable],
         bodies: &[RigidBody],
-        (pins, joints): (&[PinConstraint], &[StaticJoint]),
+        (pins, joints, loads): (&[PinConstraint], &[StaticJoint], Loads<'a>),
         tolerance: f64,
     ) -> Self {
         let mut layout = Layout::default();
@@ -57,16 +63,19 @@ impl Search {
         layout.close();
         let scales: Vec<LoadScale> = cables.iter().map(|c| LoadScale::new(&c.model, c.positions())).collect();
         let of_bodies: f64 = bodies.iter().filter(|b| b.free[..3] != [false; 3]).map(|b| total_force(b).norm()).sum();
-        let force = scales.iter().map(|s| s.force).sum::<f64>() + of_bodies;
         let mass: f64 = scales.iter().map(|s| s.mass).sum::<f64>() + bodies.iter().map(|b| b.mass).sum::<f64>();
         let length = scales.iter().map(|s| s.length).fold(0.0, f64::max);
+        let force = scales.iter().map(|s| s.force).sum::<f64>() + of_bodies + twists::force(cables, length);
         if !joints.is_empty() {
             let of_element = |e: &Element| e.section.axial_stiffness / e.length;
             let elastic = cables.iter().flat_map(|c| &c.model.elements).map(of_element).fold(0.0, f64::max);
             layout.joints = Joints::new(joints, elastic.max(force / length), length);
             layout.joints.lengthen(&mut layout.levers);
         }
-        let driven = cables.iter().any(|c| c.system.forces.drive());
+        twists::begin(cables, &layout);
+        let twisted = |c: &&mut Cable| c.system.static_torsion.as_ref().is_some_and(|torsion| torsion.count() > 0);
+        let twists = cables.iter().any(|c| twisted(&c)).then(Twists::default);
+        let driven = cables.iter().any(|c| c.system.forces.drive()) || !loads.have_potential(bodies);
         let moments = cables.iter().flat_map(|c| &c.model.loads).any(|load| load.moment != Vector3::zeros());
         let has_potential = !driven && !moments;
         let mut q: Vec<f64> = cables.iter().flat_map(|cable| cable.positions().iter().copied()).collect();
@@ -78,7 +87,7 @@ impl Search {
         Search {
             time: cables[0].time(),
             tolerance: tolerance * force + scales.iter().map(|s| s.rounding).fold(0.0, f64::max),
-            energy_rounding: scales.iter().map(|s| s.energy_rounding).sum(),
+            energy_rounding: scales.iter().map(|s| s.energy_rounding).sum::<f64>() + loads.rounding(bodies),
             first: 0.1 * mass * length / force,
             steps: 0,
             residual: f64::NAN,
@@ -93,6 +102,8 @@ impl Search {
             length,
             has_potential,
             driven,
+            twists,
+            loads,
         }
     }
 
@@ -131,12 +142,13 @@ impl Search {
         self.place(cables);
         let (mut shakes, mut straightened, mut lowest) = (0, false, f64::INFINITY);
         let mut c2 = self.first;
-        let mut energy = energy_of(&self.layout, cables, &self.q);
+        let mut energy = energy_of(&self.layout, cables, &self.q, self.loads);
         let mut cause = None;
         while self.steps < most {
             self.steps += 1;
             let outcome = self.step(cables, c2);
-            let after = if outcome.is_ok() { energy_of(&self.layout, cables, &self.trial) } else { f64::NAN };
+            let there = &self.trial;
+            let after = if outcome.is_ok() { energy_of(&self.layout, cables, there, self.loads) } else { f64::NAN };
             // NaN fails too
             let falls = after.is_finite() && (!self.has_potential || after <= energy + self.energy_rounding);
             let moved = match outcome {
@@ -152,7 +164,7 @@ impl Search {
             };
             core::mem::swap(&mut self.q, &mut self.trial);
             self.turn();
-            energy = energy_of(&self.layout, cables, &self.q);
+            energy = energy_of(&self.layout, cables, &self.q, self.loads);
             c2 = (GROWTH * c2).min(MAX_C2 * self.first);
             self.residual = self.balance(cables);
             if !(self.residual <= self.tolerance && moved <= AT_REST * self.length) {
@@ -183,7 +195,7 @@ impl Search {
                 self.shake();
             }
             self.place(cables);
-            energy = energy_of(&self.layout, cables, &self.q);
+            energy = energy_of(&self.layout, cables, &self.q, self.loads);
             c2 = self.first;
         }
         Err(cause.map_or(EquilibriumFailure::NotConverged, EquilibriumFailure::Step))
@@ -221,17 +233,32 @@ impl Search {
 
     /// Solves the step of `c2` (s^2) into the trial, and returns its largest displacement in m.
     fn step(&mut self, cables: &mut [&mut Cable], c2: f64) -> Result<f64, StepFailure> {
-        let Search { layout, matrices, q, trial, z, v, rhs, time, length, driven, .. } = self;
+        let Search { layout, matrices, q, trial, z, v, rhs, time, length, driven, twists, loads, .. } = self;
         trial.copy_from_slice(q);
         z.fill(0.0);
-        let mut equations = IslandEquations { cables, layout, matrices };
         let mut before = f64::INFINITY;
         for iteration in 1..=MAX_ITERATIONS {
+            let mut skew = loads.linearise(layout, trial);
+            let mut equations = IslandEquations { cables: &mut *cables, layout, matrices };
             let at = ForceInput { time: *time, scale: c2, q: trial, v, dv_dq: 0.0 };
+            twists::follow(equations.cables, layout, trial);
             equations.cable_rows_and_matrices(&at, z, rhs)?;
             equations.factor_bodies(MatrixKind::Step, c2, trial, v, rhs)?;
             layout.body_rows(c2, trial, v, z, rhs);
-            equations.solve(MatrixKind::Step, trial, rhs);
+            loads.add(layout, trial, c2, rhs);
+            if let Some(twists) = twists {
+                twists::add_torques(equations.cables, layout, c2, rhs);
+                twists.border(&mut equations, trial)?;
+            }
+            let mut solve = |x: &mut [f64]| {
+                equations.solve(MatrixKind::Step, trial, x);
+                if let Some(twists) = twists {
+                    twists.complete(&equations, x);
+                }
+            };
+            skew.border(rhs.len(), c2, &mut solve);
+            solve(rhs);
+            skew.complete(rhs);
             let size = equations.norm(rhs);
             let slopes = equations.parts().map(|(c, part)| c.system.scales.extent(&rhs[part.range()]).1);
             let rotations = (0..layout.bodies.len()).map(|i| vector(&rhs[layout.body_at(i) + 3..]).norm());
@@ -271,7 +298,7 @@ impl Search {
         if before <= ISLAND_STAGNATION * *length {
             // a proximal step need not be exact, and energy and residual judge it
             z.iter_mut().zip(trial.iter()).zip(q.iter()).for_each(|((z, y), q)| *z = y - q);
-            return Ok(equations.norm(z));
+            return Ok(IslandEquations { cables, layout, matrices }.norm(z));
         }
         Err(StepFailure::NotConverged { iterations: MAX_ITERATIONS, increment: before })
     }
@@ -290,11 +317,14 @@ impl Search {
     /// Returns the largest residual in N, of nodes and of bodies; moments are divided by the lever
     /// of the body or by the length of an element.
     fn balance(&mut self, cables: &mut [&mut Cable]) -> f64 {
-        let Search { layout, matrices, q, z, v, rhs, time, length, .. } = self;
+        let Search { layout, matrices, q, z, v, rhs, time, length, loads, .. } = self;
         let mut equations = IslandEquations { cables, layout, matrices };
         z.fill(0.0);
+        twists::follow(equations.cables, layout, q);
         equations.cable_rows(&ForceInput { time: *time, scale: 1.0, q, v, dv_dq: 0.0 }, z, rhs);
         layout.body_rows(1.0, q, v, z, rhs);
+        loads.add(layout, q, 1.0, rhs);
+        twists::add_torques(equations.cables, layout, 1.0, rhs);
         let mut worst = 0.0f64;
         for (cable, part) in equations.cables.iter().zip(&layout.parts) {
             let shortest = cable.model.elements.iter().map(|e| e.length).fold(f64::INFINITY, f64::min);
@@ -318,13 +348,20 @@ impl Search {
     /// Returns whether the stiffness is positive definite, but for modes softer than any that
     /// matters; of a matrix that is singular to rounding, but for modes that are softer than those.
     fn is_stable(&mut self, cables: &mut [&mut Cable]) -> bool {
-        let Search { layout, matrices, q, v, rhs, time, first, .. } = self;
+        let Search { layout, matrices, q, v, rhs, time, first, twists, loads, .. } = self;
+        loads.linearise(layout, q);
         let mut equations = IslandEquations { cables, layout, matrices };
         let mut c2 = STABILITY_C2 * *first;
         while c2 > *first {
             let at = ForceInput { time: *time, scale: c2, q, v, dv_dq: 0.0 };
-            if let Ok(stable) = equations.is_positive_definite(&at, rhs) {
-                return stable;
+            twists::follow(equations.cables, layout, q);
+            let negative = equations.negative_eigenvalues(&at, rhs);
+            let removed = match twists {
+                None => Ok(0),
+                Some(twists) => twists.border(&mut equations, q).map(|()| twists.negative()),
+            };
+            if let (Ok(negative), Ok(removed)) = (negative, removed) {
+                return negative == Some(removed);
             }
             c2 *= REDUCTION;
         }
@@ -362,8 +399,9 @@ fn total_force(body: &RigidBody) -> Vector3<f64> {
 
 /// Returns the potential energy in J at coordinates `q`, less the work of torques over the
 /// rotations from the attitudes that these are counted from.
-fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64]) -> f64 {
+fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64], loads: Loads<'_>) -> f64 {
     let mut sum = 0.0;
+    twists::follow(cables, layout, q);
     for (cable, part) in cables.iter_mut().zip(&layout.parts) {
         sum += potential(&cable.equations().0, 1.0, &q[part.range()]);
     }
@@ -376,5 +414,5 @@ fn energy_of(layout: &Layout, cables: &mut [&mut Cable], q: &[f64]) -> f64 {
         });
         body.force.dot(&vector(&q[at..])) + body.torque.dot(&turn) + points
     });
-    sum - work.sum::<f64>() + layout.joints.energy(&layout.bodies, layout.pose(q))
+    sum - work.sum::<f64>() + layout.joints.energy(&layout.bodies, layout.pose(q)) + loads.energy(layout, q)
 }
