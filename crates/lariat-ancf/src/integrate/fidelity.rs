@@ -100,9 +100,7 @@ impl Fidelity {
     /// Returns the integrator for a cable whose frequencies stay below `frequency_bound` (rad/s).
     pub fn integrator(self, frequency_bound: f64) -> Integrator {
         match self {
-            Fidelity::Game => {
-                Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) }
-            }
+            Fidelity::Game => Integrator::GAME,
             Fidelity::Engineering => Integrator::default(),
             Fidelity::Reference if frequency_bound < MAX_EXPLICIT_FREQUENCY => {
                 Integrator { method: Method::Rkn4, control: StepControl::Stable(0.5) }

@@ -183,3 +183,28 @@ pub(crate) const MOMENTUM_TOLERANCE_UNDER_CONTROL: f64 = 1e-7;
 /// Largest number of divisions of divisions for what is found at the end of a step. Unknown: what
 /// is missing there falls with the square of the step, to 4^-6 of it.
 pub(crate) const MAX_DEPTH_OF_ENDS: usize = 3;
+
+/// The time in s to which adaptive numbers of steps belong. Setting: a frame of most games.
+pub(crate) const FRAME: f64 = 1.0 / 60.0;
+
+/// Number of steps in it that a game takes whatever happens. Setting:
+/// [`StepControl::Adaptive`](crate::StepControl::Adaptive).
+pub(crate) const USUAL_IN_FRAME: f64 = 4.0;
+
+/// Largest number of steps in it. Setting: likewise.
+pub(crate) const MOST_IN_FRAME: f64 = 8.0;
+
+/// Estimated error in that time, as a share of the size, from which on the steps of games are
+/// halved. Derived: a rope that turns about its end by x in a step of 1/240 s errs by 4 (1/12 +
+/// 1/16) x^3 of its length, and loses pi x^3/16 of its angular momentum in a turn, which is 1e-3
+/// here.
+pub(crate) const COARSE: f64 = 3e-3;
+
+/// Largest size in m of which errors are a share. Setting: the unit of the tolerance.
+pub(crate) const LARGEST_SIZE: f64 = 1.0;
+
+/// Tolerance of games, as a share of the size in [`FRAME`]. Measured: with it the pendulum and the
+/// payload of `docs/accuracy` err as with steps of 1/240 s, with 3e-4 the pendulum by twice as much;
+/// ropes that swing by 3 degrees take 1.4 steps in place of 4
+/// (docs/decisions/integration.md).
+pub(crate) const ADAPTIVE_TOLERANCE: f64 = 1e-4;

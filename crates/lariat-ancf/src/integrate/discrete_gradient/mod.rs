@@ -50,6 +50,7 @@
 
 mod advance;
 mod law;
+mod pace;
 mod relaxation;
 mod safeguard;
 
@@ -59,6 +60,7 @@ use crate::scales::integrate::ALPHA;
 pub use crate::state::Differences;
 pub use crate::term::EnergyLaw;
 pub(crate) use advance::advance;
+pub use crate::state::Pace;
 pub(crate) use law::{DiscreteGradientSystem, Event, share_to_take, sum_of_forces};
 
 /// Name of the method with the dissipation of games.
