@@ -62,7 +62,9 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
         ("stable", row.stable.map(StepControl::Stable)),
     ];
     let Some((key, control)) = controls.into_iter().find_map(|(key, control)| control.map(|c| (key, c))) else {
-        return Err(doc.error(at, Problem::NoneGiven(&["tolerance", "substeps", "max_step", "adaptive", "stable", "fidelity"])));
+        return Err(
+            doc.error(at, Problem::NoneGiven(&["tolerance", "substeps", "max_step", "adaptive", "stable", "fidelity"]))
+        );
     };
     if row.norm.is_some() && key != "tolerance" {
         return Err(doc.missing(&at.key("tolerance")));

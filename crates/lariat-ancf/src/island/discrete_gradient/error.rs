@@ -30,8 +30,8 @@
 //! Two half steps and their difference (Richardson): three times the work; the extrapolated state
 //! makes energy at any a below 1/16.
 
-use super::{IslandStep, StepBuffers};
 use super::body::BodyStep;
+use super::{IslandStep, StepBuffers};
 use crate::one_leg::OneLeg;
 use crate::system::{CableStep, project_vector};
 
