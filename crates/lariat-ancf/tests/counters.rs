@@ -4,7 +4,7 @@ mod common;
 
 use common::{pendulum, rule};
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{Diagnostics, Fidelity, Integrator, Method, PointLoad, StepControl, Vector3};
+use lariat_ancf::{Diagnostics, Fidelity, Integrator, Method, PointLoad, Vector3};
 
 fn counted(name: &str, load: bool, method: Method, steps: usize) -> Diagnostics {
     let mut builder = pendulum(10).rule(rule(name)).integrator(Integrator::substeps(method, 40).unwrap());
