@@ -62,7 +62,7 @@ fn a_rope_at_rest_takes_one_step() {
 }
 
 /// Ropes of 1 to 5 m that swing by 3 to 11 degrees take at most 2.6 of 4 steps, and end within the tolerance times the number of host
-/// steps of the same scene in steps of 1/1920 s; steps of 1/240 s are less than three times nearer to that.
+/// steps of the same scene in steps of 1/1920 s.
 ///
 /// *Source.* The tolerance, 1e-4 m in 1/60 s, and the same method at an eighth of the step.
 #[test]

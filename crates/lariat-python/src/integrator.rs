@@ -20,6 +20,7 @@ impl Integrator {
     /// share a (h w)^3/2 of its amplitude per radian in steps of h. Default 1/16, with a tolerance
     /// 1/256.
     #[new]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     #[pyo3(signature = (method="esdirk4", *, tolerance=None, norm=None, substeps=None, max_step=None, adaptive=None, stable=None, dissipation=None))]
     fn new(
         method: &str,
