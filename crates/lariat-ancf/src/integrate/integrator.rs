@@ -24,9 +24,9 @@ pub enum StepControl {
     MaxStep(f64),
     /// Discrete gradient: 1, 2, 4 or 8 equal steps in 1/60 s, by an estimate of the position error.
     /// 1 and 2 are taken where they keep this error in m per 1/60 s, in proportion for cables
-    /// shorter than 1 m; 8 where 4 err by 3e-3 m and 8 halve that. What touches, twists, runs off a
-    /// reel or was changed by the host takes at least 4. Nothing is rejected for its error in steps
-    /// of 1/240 s or less, so the error of violent motion has no bound.
+    /// shorter than 1 m; 8 where 4 err by 3e-3 m and 8 halve that. What has contact, twists, runs
+    /// off a reel or was changed by the host takes at least 4. Nothing is rejected for its error in
+    /// steps of 1/240 s or less, so the error of violent motion has no bound.
     Adaptive(f64),
     /// Explicit methods: the fewest equal steps within this share (0 to 1) of the stability limit.
     Stable(f64),

@@ -48,8 +48,8 @@ pub(crate) trait DiscreteGradientSystem {
     /// not known.
     fn estimate(&mut self) -> Option<f64>;
 
-    /// Returns whether the host step may not have longer steps than those of games: what touches,
-    /// reels, twists, or was changed by the host since the last step.
+    /// Returns whether the host step may not have longer steps than those of games: what has
+    /// contact, reels, twists, or was changed by the host since the last step.
     fn needs_short_steps(&self) -> bool;
 
     /// Returns the size in m of which errors are a share: the length of the shortest cable, and at

@@ -24,7 +24,7 @@
 //! resolved by either, and it has 4 until E is below that with 4.
 //!
 //! At least 4 are taken where the estimate says nothing about what comes: by the first host step,
-//! after an edit, a wake, or a change of a body by the host; near what the cable can touch, with
+//! after an edit, a wake, or a change of a body by the host; with contact,
 //! torsion, and where reels move; after a step that was divided or rescaled. A host step that is no
 //! multiple of F/n has the fewest equal steps that are no longer.
 //!

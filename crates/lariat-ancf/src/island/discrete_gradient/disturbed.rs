@@ -9,15 +9,7 @@ impl IslandStep<'_, '_> {
     /// that step says nothing.
     pub(super) fn is_disturbed(&self) -> bool {
         let bodies = self.buffers.bodies.iter().any(|body| body.changed);
-        let pairs = |cable: &Cable| {
-            let Some(contact) = cable.model.effects.contact else { return false };
-            let others = match &self.buffers.may_touch {
-                Some(pairs) => !pairs.is_empty(),
-                None => contact.cables && self.cables.len() > 1,
-            };
-            contact.itself || others
-        };
-        bodies || self.cables.iter().any(|cable| is_disturbed(cable) || pairs(cable))
+        bodies || self.cables.iter().any(|cable| is_disturbed(cable))
     }
 
     /// Returns the length in m of the shortest cable, and at most 1 m.
@@ -29,7 +21,7 @@ impl IslandStep<'_, '_> {
 /// Returns whether a cable is, for its own.
 fn is_disturbed(cable: &Cable) -> bool {
     let memory = &cable.snapshot.state.memory;
-    let touches = cable.model.effects.contact.is_some() && !cable.model.obstacles.0.is_empty();
+    let touches = cable.model.effects.contact.is_some();
     let changed = memory.differences.is_empty() || memory.differences.revision != memory.revision;
     touches || changed || cable.model.effects.torsion.is_some() || !cable.is_reel_still()
 }
