@@ -1,4 +1,4 @@
-//! How many steps fidelity game takes: few where motion is calm, without a loss that is seen.
+//! How many steps adaptive control takes: few where motion is calm, without a loss that is seen.
 
 mod common;
 
@@ -12,7 +12,7 @@ use nalgebra::Matrix3;
 
 const FRAME: f64 = 1.0 / 60.0;
 
-/// The integrator of games before its steps were chosen.
+/// That of fidelity game.
 const FIXED: Integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
 
 /// A rope of 10 mm that hangs at an angle (rad), straight.
@@ -22,7 +22,8 @@ fn hanging(length: f64, angle: f64) -> CableBuilder {
         .points([Vector3::zeros(), end])
         .section(Section::round(0.01, 1e8, 1200.0).unwrap())
         .elements(16)
-        .fidelity(Fidelity::Game)
+        .rule(Fidelity::Game.rule())
+        .integrator(Integrator::ADAPTIVE)
         .fix(At::Start)
 }
 
@@ -86,7 +87,7 @@ fn calm_ropes_take_fewer_steps_within_the_tolerance() {
         };
         let (exact, _) = path(StepControl::MaxStep(1.0 / 1920.0));
         let error = |path: &[Vector3<f64>]| path.iter().zip(&exact).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-        let ((fixed, before), (chosen, now)) = (path(FIXED.control), path(Integrator::GAME.control));
+        let ((fixed, before), (chosen, now)) = (path(FIXED.control), path(Integrator::ADAPTIVE.control));
         let per = |n: u64| n as f64 / f64::from(frames);
         let (of_fixed, of_chosen) = (error(&fixed), error(&chosen));
         println!(
@@ -114,7 +115,8 @@ fn a_rope_that_turns_keeps_its_angular_momentum() {
                 .points([Vector3::zeros(), Vector3::new(length, 0.0, 0.0)])
                 .section(Section::round(0.01 * length, 1e8, 1200.0).unwrap())
                 .elements(10)
-                .fidelity(Fidelity::Game)
+                .rule(Fidelity::Game.rule())
+                .integrator(Integrator::ADAPTIVE)
                 .gravity(Vector3::zeros())
                 .angular_velocity(Vector3::new(0.0, 0.0, speed))
                 .fix(At::Start)
@@ -228,7 +230,7 @@ fn changes_of_a_body_take_four_steps() {
         let (mut bodies, mut island) = ([body], Island::default());
         let mut step = |rope: &mut Cable, bodies: &mut [RigidBody]| {
             let before = rope.diagnostics().steps;
-            island.step(&mut [rope], bodies, &[pin], Integrator::GAME, FRAME).unwrap();
+            island.step(&mut [rope], bodies, &[pin], Integrator::ADAPTIVE, FRAME).unwrap();
             rope.diagnostics().steps - before
         };
         (0..300).for_each(|_| drop(step(&mut rope, &mut bodies)));
@@ -256,7 +258,7 @@ fn whips_cost_no_more_than_fixed_steps() {
         }
         iterations
     };
-    let (chosen, fixed) = (run(Integrator::GAME), run(FIXED));
+    let (chosen, fixed) = (run(Integrator::ADAPTIVE), run(FIXED));
     println!("{chosen} iterations for {fixed}");
     assert!(chosen as f64 <= 1.1 * fixed as f64, "{chosen} iterations for {fixed}");
 }

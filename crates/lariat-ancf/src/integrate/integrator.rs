@@ -59,10 +59,10 @@ impl Default for Integrator {
 }
 
 impl Integrator {
-    /// What [`Fidelity::Game`](super::Fidelity::Game) is: the discrete gradient with
-    /// [`Adaptive`](StepControl::Adaptive) steps, 1e-4 m in 1/60 s, and the dissipation 1/16; 1/256
-    /// in steps longer than 1/240 s.
-    pub const GAME: Integrator =
+    /// The discrete gradient of games in [`Adaptive`](StepControl::Adaptive) steps, 1e-4 m in 1/60
+    /// s, with the dissipation 1/16; 1/256 in steps longer than 1/240 s. Calm ropes take one or two
+    /// of these where [`Fidelity::Game`](super::Fidelity::Game) takes four.
+    pub const ADAPTIVE: Integrator =
         Integrator { method: Method::DiscreteGradient, control: StepControl::Adaptive(ADAPTIVE_TOLERANCE) };
 
     /// What [`Fidelity::Engineering`](super::Fidelity::Engineering) is where contact, torsion,

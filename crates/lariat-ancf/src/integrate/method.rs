@@ -126,7 +126,7 @@ impl Method {
                 2,
                 1,
                 "the energy law holds at any step",
-                "games, 1/60 to 1/480 s (fidelity game); any stiffness, contact, reels, bodies",
+                "games, h <= 1/240 s (fidelity game); any stiffness, contact, reels, bodies",
             ),
             Method::Verlet => of(2, 1, SYMPLECTIC, "soft cables, many small steps"),
             Method::Rkn4 => of(4, 6, SYMPLECTIC, "soft cables, fine accuracy (fidelity reference)"),

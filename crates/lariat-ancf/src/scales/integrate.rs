@@ -93,9 +93,9 @@ pub(crate) const MIN_CHECKED_SHARE: f64 = 1.0 / 1024.0;
 /// to a third in every step, and slow ones have the damping ratio a (h omega)^3/2.
 pub(crate) const ALPHA: f64 = 1.0 / 16.0;
 
-/// The same where the error is controlled, and in steps of games that are longer than those of
-/// 1/240 s. Measured: thrown ropes take 1.6 times the iterations
-/// that they take with that of games, and 26 times without any; slow motions lose a sixteenth.
+/// The same where the error is controlled, and in adaptive steps longer than 1/240 s. Measured:
+/// thrown ropes take 1.6 times the iterations that they take with that of games, and 26 times
+/// without any; slow motions lose a sixteenth.
 pub(crate) const LITTLE_DISSIPATION: f64 = 1.0 / 256.0;
 
 /// Largest number of steps that a tolerance of the discrete gradient asks for in a host step.
@@ -204,9 +204,10 @@ pub(crate) const COARSE: f64 = 3e-3;
 /// Largest size in m of which errors are a share. Setting: the unit of the tolerance.
 pub(crate) const LARGEST_SIZE: f64 = 1.0;
 
-/// Tolerance of games, as a share of the size in [`FRAME`]. Measured: with it the pendulum and the
-/// payload of `docs/accuracy` err as in steps of 1/240 s, and ropes that swing by 3 degrees take
-/// 1.7 steps in place of 4 (tests, adaptive_steps.rs; docs/decisions/integration.md).
+/// Tolerance of [`Integrator::ADAPTIVE`](crate::Integrator::ADAPTIVE), as a share of the size in
+/// [`FRAME`]. Measured: with it the pendulum and the payload of `docs/accuracy` err as in steps of
+/// 1/240 s, and ropes that swing by 3 degrees take 1.7 steps in place of 4 (tests,
+/// adaptive_steps.rs; docs/decisions/integration.md).
 pub(crate) const ADAPTIVE_TOLERANCE: f64 = 1e-4;
 
 /// Time in s for which a number of steps that has risen does not fall. Measured: an undamped

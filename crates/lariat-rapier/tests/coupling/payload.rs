@@ -3,7 +3,7 @@
 
 use super::common::{add_cube, cable, gap, soft, steel};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Fidelity, Section};
+use lariat_rapier::lariat_ancf::{At, Fidelity, Integrator, Section};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -104,7 +104,7 @@ fn energy_is_conserved_for_any_mass_ratio() {
     }
 }
 
-/// In fidelity game a load that swings gently takes fewer than the four steps of games per host step of 1/60 s, and four or more after
+/// With adaptive steps a load that swings gently takes fewer than the four steps of games per host step of 1/60 s, and four or more after
 /// the host changed its velocity.
 ///
 /// Reference: the rule of `StepControl::Adaptive`.
@@ -114,7 +114,10 @@ fn a_load_that_swings_gently_takes_few_steps_until_the_host_changes_it() {
     world.integration_parameters.dt = 1.0 / 60.0;
     let cube = add_cube(&mut world, 50.0, 0.1, [0.0, -2.1, 0.0]);
     let mut set = CableSet::new();
-    let builder = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).fidelity(Fidelity::Game);
+    let builder = cable([0.0; 3], [0.0, -2.0, 0.0], soft())
+        .fix(At::Start)
+        .rule(Fidelity::Game.rule())
+        .integrator(Integrator::ADAPTIVE);
     let sling = set.insert(builder.build().unwrap());
     set.attach(&world, sling, At::End, cube, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
     set.equilibrium(&mut world).unwrap();
