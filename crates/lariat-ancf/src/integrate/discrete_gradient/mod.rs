@@ -34,8 +34,8 @@
 //!
 //! # Validity
 //!
-//! Any stiffness, any step. Games: h = 1/240 s, longer in calm motion and shorter in fast
-//! (pace.rs). The error of a slow motion is that of the midpoint rule; fast modes are not resolved,
+//! Any stiffness, any step. Games: h = 1/240 s, or by choice other steps (pace.rs).
+//! The error of a slow motion is that of the midpoint rule; fast modes are not resolved,
 //! but bounded. With a tolerance steps follow an estimate of that error (advance.rs), with a =
 //! 1/256, and impulses balance to 1e-3.
 //!
