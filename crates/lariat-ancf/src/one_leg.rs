@@ -45,6 +45,13 @@ impl OneLeg {
     pub fn error_factors(&self, ratio: f64, kept: f64) -> [f64; 2] {
         [OF_MIDPOINT + self.a, OF_MIDPOINT * ratio / kept + self.a]
     }
+
+    /// Returns the same factors for the error that the formula makes in every step of a length:
+    /// without that of one step that is longer than the one before, of which O v is not scaled up.
+    pub fn smooth_error_factors(&self, ratio: f64, kept: f64) -> [f64; 2] {
+        let factor = OF_MIDPOINT + self.a;
+        [factor, factor * ratio / kept]
+    }
 }
 
 impl Default for OneLeg {

@@ -2,7 +2,7 @@
 
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{Island, PinConstraint, RigidBody};
-use lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
+use lariat_ancf::{At, Cable, Fidelity, Integrator, Section, Vector3};
 use nalgebra::Matrix3;
 
 /// Ten minutes, or in the quick set as many seconds, of a body of 1 kg on a rope of 1 m without
@@ -14,7 +14,7 @@ use nalgebra::Matrix3;
 fn a_pendulum_keeps_its_energy_at_any_host_step() {
     let long = std::env::var_os("LARIAT_LONG_TESTS").is_some();
     let time = if long { 600.0 } else { 10.0 };
-    for fidelity in [Fidelity::Game, Fidelity::Engineering] {
+    for fidelity in [Fidelity::Game, Fidelity::Engineering, Integrator::ADAPTIVE.into()] {
         for i in 0..11 {
             // evenly spread in the logarithm
             let dt = 12f64.powf(f64::from(i) / 10.0) / 240.0;

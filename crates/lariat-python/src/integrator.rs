@@ -14,18 +14,21 @@ pub struct Integrator(pub ancf::Integrator);
 #[pymethods]
 impl Integrator {
     /// A method by its name, with one of: `tolerance` in m per host step (of the errors that `norm` selects: "every", "motion" or
-    /// "bodies"), `substeps` per host step, `max_step` in s, or `stable`, a share of the stability limit of an explicit method.
+    /// "bodies"), `substeps` per host step, `max_step` in s, `adaptive` in m (1, 2, 4 or 8 equal steps in 1/60 s of "discrete-gradient", with
+    /// this error kept by 1 and 2), or `stable`, a share of the stability limit of an explicit method.
     /// `dissipation` of "discrete-gradient", 0 to 1/16: a motion of angular frequency w loses the
     /// share a (h w)^3/2 of its amplitude per radian in steps of h. Default 1/16, with a tolerance
     /// 1/256.
     #[new]
-    #[pyo3(signature = (method="esdirk4", *, tolerance=None, norm=None, substeps=None, max_step=None, stable=None, dissipation=None))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    #[pyo3(signature = (method="esdirk4", *, tolerance=None, norm=None, substeps=None, max_step=None, adaptive=None, stable=None, dissipation=None))]
     fn new(
         method: &str,
         tolerance: Option<f64>,
         norm: Option<&str>,
         substeps: Option<u32>,
         max_step: Option<f64>,
+        adaptive: Option<f64>,
         stable: Option<f64>,
         dissipation: Option<f64>,
     ) -> PyResult<Self> {
@@ -43,11 +46,12 @@ impl Integrator {
             tolerance.map(|x| norm.map_or(StepControl::Tolerance(x), |norm| StepControl::ToleranceOf(x, norm))),
             substeps.map(StepControl::Substeps),
             max_step.map(StepControl::MaxStep),
+            adaptive.map(StepControl::Adaptive),
             stable.map(StepControl::Stable),
         ];
         let mut given = controls.into_iter().flatten();
         let (Some(control), None) = (given.next(), given.next()) else {
-            let message = "give exactly one of tolerance, substeps, max_step and stable";
+            let message = "give exactly one of tolerance, substeps, max_step, adaptive and stable";
             return Err(raise(Raise::new("StepControlError", message)));
         };
         if norm.is_some() && tolerance.is_none() {
@@ -73,6 +77,7 @@ impl Integrator {
             }
             StepControl::Substeps(n) => named.set_item("substeps", n)?,
             StepControl::MaxStep(h) => named.set_item("max_step", h)?,
+            StepControl::Adaptive(x) => named.set_item("adaptive", x)?,
             StepControl::Stable(share) => named.set_item("stable", share)?,
         }
         // the name of the method has the dissipation in it
@@ -85,6 +90,7 @@ impl Integrator {
             StepControl::ToleranceOf(x, norm) => format!("tolerance={x:?}, norm={:?}", norm.name()),
             StepControl::Substeps(n) => format!("substeps={n}"),
             StepControl::MaxStep(h) => format!("max_step={h:?}"),
+            StepControl::Adaptive(x) => format!("adaptive={x:?}"),
             StepControl::Stable(share) => format!("stable={share:?}"),
         };
         format!("Integrator({:?}, {control})", self.0.method.to_string())

@@ -242,6 +242,8 @@ fn regular_step(system: &dyn Dynamics, integrator: IntegratorRef<'_>, horizon: f
         StepControl::Tolerance(_) | StepControl::ToleranceOf(..) if remembered > 0.0 => remembered,
         StepControl::Tolerance(_) | StepControl::ToleranceOf(..) => 0.1 * horizon,
         StepControl::Substeps(substeps) => horizon / f64::from(substeps),
+        // of the discrete gradient alone, which has a control of its own
+        StepControl::Adaptive(_) => horizon,
         StepControl::MaxStep(longest) => equal(longest * (1.0 + SINGLE_PRECISION_ROUNDING)),
         StepControl::Stable(share) => match integrator.method.stability_limit() {
             Some(limit) => equal(share * limit / system.frequency_bound().max(1e-12)),

@@ -214,6 +214,21 @@ impl RigidBody {
         self.free == [false; 6]
     }
 
+    /// Returns whether its motion, loads and inertia are those with which its last step ended, by
+    /// the discrete gradient; always of a driven body at rest.
+    pub(super) fn is_as_after_last_step(&self) -> bool {
+        if self.is_driven() && !self.moves() {
+            return true;
+        }
+        let Some(memory) = &self.memory else { return false };
+        let loads = memory.force == self.force && memory.torque == self.torque;
+        let inertia = memory.mass == self.mass && memory.inertia == self.inertia && memory.free == self.free;
+        let motion = memory.differences.is_some_and(|last| {
+            last.velocity == [self.velocity, self.angular_velocity] && last.rotation == self.rotation
+        });
+        loads && inertia && motion
+    }
+
     /// Returns whether it moves when the step begins, or is prescribed to.
     pub(super) fn moves(&self) -> bool {
         let rates = [[self.velocity, self.angular_velocity], self.unsteadiness[0], self.unsteadiness[1]];

@@ -93,8 +93,9 @@ pub(crate) const MIN_CHECKED_SHARE: f64 = 1.0 / 1024.0;
 /// to a third in every step, and slow ones have the damping ratio a (h omega)^3/2.
 pub(crate) const ALPHA: f64 = 1.0 / 16.0;
 
-/// The same where the error is controlled. Measured: thrown ropes take 1.6 times the iterations
-/// that they take with that of games, and 26 times without any; slow motions lose a sixteenth.
+/// The same where the error is controlled, and in adaptive steps longer than 1/240 s. Measured:
+/// thrown ropes take 1.6 times the iterations that they take with that of games, and 26 times
+/// without any; slow motions lose a sixteenth.
 pub(crate) const LITTLE_DISSIPATION: f64 = 1.0 / 256.0;
 
 /// Largest number of steps that a tolerance of the discrete gradient asks for in a host step.
@@ -183,3 +184,33 @@ pub(crate) const MOMENTUM_TOLERANCE_UNDER_CONTROL: f64 = 1e-7;
 /// Largest number of divisions of divisions for what is found at the end of a step. Unknown: what
 /// is missing there falls with the square of the step, to 4^-6 of it.
 pub(crate) const MAX_DEPTH_OF_ENDS: usize = 3;
+
+/// The time in s to which adaptive numbers of steps belong. Setting: a frame of most games.
+pub(crate) const FRAME: f64 = 1.0 / 60.0;
+
+/// Number of steps in it that a game takes whatever happens. Setting:
+/// [`StepControl::Adaptive`](crate::StepControl::Adaptive).
+pub(crate) const USUAL_IN_FRAME: f64 = 4.0;
+
+/// Largest number of steps in it. Setting: likewise.
+pub(crate) const MOST_IN_FRAME: f64 = 8.0;
+
+/// Estimated error in that time, as a share of the size, from which on the steps of games are
+/// halved. Derived: a rope that turns about its end by x in a step of 1/240 s errs by 4 (1/12 +
+/// 1/16) x^3 of its length, and loses pi x^3/16 of its angular momentum in a turn, which is 1e-3
+/// here.
+pub(crate) const COARSE: f64 = 3e-3;
+
+/// Largest size in m of which errors are a share. Setting: the unit of the tolerance.
+pub(crate) const LARGEST_SIZE: f64 = 1.0;
+
+/// Tolerance of [`Integrator::ADAPTIVE`](crate::Integrator::ADAPTIVE), as a share of the size in
+/// [`FRAME`]. Measured: with it the pendulum and the payload of `docs/accuracy` err as in steps of
+/// 1/240 s, and ropes that swing by 3 degrees take 1.7 steps in place of 4 (tests,
+/// adaptive_steps.rs; docs/decisions/integration.md).
+pub(crate) const ADAPTIVE_TOLERANCE: f64 = 1e-4;
+
+/// Time in s for which a number of steps that has risen does not fall. Measured: an undamped
+/// pendulum then loses less than half of what it loses without, 3.7e-3 in ten minutes at most
+/// (tests, long_pendulum.rs); it has its largest error once in about a second.
+pub(crate) const CALM_TIME: f64 = 0.5;

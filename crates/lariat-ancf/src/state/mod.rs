@@ -3,11 +3,13 @@
 
 mod contact;
 mod differences;
+mod pace;
 mod torsion;
 
 pub use contact::{ContactMemory, PairMemory};
 pub(crate) use contact::{Key, renumber};
 pub use differences::Differences;
+pub use pace::Pace;
 pub use torsion::SegmentTwist;
 
 use crate::error::{Error, require};
@@ -65,6 +67,9 @@ pub struct Memory {
     /// tension.
     #[serde(default)]
     pub bent_at: f64,
+    /// How many steps host steps took by the discrete gradient.
+    #[serde(default)]
+    pub pace: Pace,
 }
 
 fn coherent() -> f64 {
@@ -89,6 +94,7 @@ impl Default for Memory {
             torsion: None,
             least_damping: 0.0,
             bent_at: 0.0,
+            pace: Pace::default(),
         }
     }
 }
@@ -126,6 +132,7 @@ impl State {
             torsion,
             least_damping,
             bent_at,
+            pace,
         } = memory;
         self.time = *time;
         self.q.clone_from(q);
@@ -145,6 +152,7 @@ impl State {
         self.memory.torsion.clone_from(torsion);
         self.memory.least_damping = *least_damping;
         self.memory.bent_at = *bent_at;
+        self.memory.pace = *pace;
     }
 
     /// Moves the state rigidly: turned about the origin, then displaced by `by` (m). What the

@@ -47,6 +47,7 @@ pub fn control(control: StepControl) -> String {
         StepControl::ToleranceOf(t, norm) => format!("tolerance {t:.0e} m of {}", norm.name()),
         StepControl::Substeps(n) => format!("{n} substeps"),
         StepControl::MaxStep(h) => format!("steps <= 1/{:.0} s", 1.0 / h),
+        StepControl::Adaptive(t) => format!("1 to 8 steps per 1/60 s by {t:.0e} m"),
         StepControl::Stable(share) => format!("{share} of the stable step"),
     }
 }

@@ -106,12 +106,14 @@ class Integrator:
         norm: Literal["every", "motion", "bodies"] | None = None,
         substeps: int | None = None,
         max_step: float | None = None,
+        adaptive: float | None = None,
         stable: float | None = None,
         dissipation: float | None = None,
     ) -> Self:
         """A method by name (see ``integrators()``), and exactly one of: ``tolerance``, the error of position in m per host step (of the
-        errors that ``norm`` selects); ``substeps`` per host step; ``max_step`` in s; ``stable``, a share in (0, 1] of the stability limit
-        of an explicit method. ``dissipation`` of "discrete-gradient", 0 to 1/16: a motion of angular frequency w loses the share
+        errors that ``norm`` selects); ``substeps`` per host step; ``max_step`` in s; ``adaptive``, 1, 2, 4 or 8 equal steps in 1/60 s
+        of "discrete-gradient" (1 and 2 keep this error in m in that time, in proportion for cables shorter than 1 m); ``stable``, a share
+        in (0, 1] of the stability limit of an explicit method. ``dissipation`` of "discrete-gradient", 0 to 1/16: a motion of angular frequency w loses the share
         a (h w)^3/2 of its amplitude per radian in steps of h; default 1/16, with a tolerance 1/256.
 
         Raises UnknownIntegratorError, StepControlError, NoErrorEstimateError, NoErrorNormError, NoStabilityLimitError,

@@ -150,7 +150,7 @@ class UnknownKindError(Error, ValueError):
 
 
 class StepControlError(Error, ValueError):
-    """None or several of tolerance, substeps, max_step and stable; or both fidelity and integrator."""
+    """None or several of tolerance, substeps, max_step, adaptive and stable; or both fidelity and integrator."""
 
 
 class NoErrorEstimateError(Error, ValueError):

@@ -80,7 +80,10 @@ impl Remaining {
     /// counts.
     pub fn limit(&self, integrator: &Integrator) -> WorkLimit {
         let is_of_games = integrator.method.uses_discrete_gradients()
-            && matches!(integrator.control, StepControl::MaxStep(step) if step >= CHEAPEST_STEP);
+            && match integrator.control {
+                StepControl::MaxStep(step) => step >= CHEAPEST_STEP,
+                control => matches!(control, StepControl::Adaptive(_)),
+            };
         match (self.iterations, self.deadline) {
             (Some(iterations), _) if is_of_games || !self.of_games => WorkLimit::iterations(iterations),
             (None, Some(deadline)) => WorkLimit::until(deadline),

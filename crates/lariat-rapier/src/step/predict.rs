@@ -30,7 +30,7 @@ use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::mechanism::{self, Group, Jointed};
 use crate::scales::TIME_ROUNDING;
-use crate::scales::step::{MAX_CONTROLLED_STEP, MAX_PARTS, MAX_PHASE, MIN_DAMPING};
+use crate::scales::step::{CHEAPEST_STEP, MAX_CONTROLLED_STEP, MAX_PARTS, MAX_PHASE, MIN_DAMPING};
 use crate::step::budget::CHEAPEST;
 use crate::step::energy;
 use crate::step::kinematic_ends;
@@ -248,6 +248,8 @@ fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> In
         StepControl::Tolerance(tolerance) | StepControl::ToleranceOf(tolerance, _) => (tolerance, 0.0),
         StepControl::Substeps(count) => (f64::INFINITY, host / f64::from(count)),
         StepControl::MaxStep(h) => (f64::INFINITY, h.min(host)),
+        // as short as they get without an error that asks for it
+        StepControl::Adaptive(_) => (f64::INFINITY, CHEAPEST_STEP.min(host)),
         StepControl::Stable(_) => (f64::INFINITY, f64::INFINITY),
     };
     all().fold(first, |best, i| if fineness(&i) < fineness(&best) { i } else { best })

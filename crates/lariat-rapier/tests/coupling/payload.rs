@@ -3,7 +3,7 @@
 
 use super::common::{add_cube, cable, gap, soft, steel};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Fidelity, Section};
+use lariat_rapier::lariat_ancf::{At, Fidelity, Integrator, Section};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -102,4 +102,40 @@ fn energy_is_conserved_for_any_mass_ratio() {
             assert!(energy < 3e-5 * scale && last > -1e-3 * scale && gap < 1e-3, "{case}");
         }
     }
+}
+
+/// With adaptive steps a load that swings gently takes fewer than the four steps of games per host step of 1/60 s, and four or more after
+/// the host changed its velocity.
+///
+/// Reference: the rule of `StepControl::Adaptive`.
+#[test]
+fn a_load_that_swings_gently_takes_few_steps_until_the_host_changes_it() {
+    let mut world = PhysicsWorld::new();
+    world.integration_parameters.dt = 1.0 / 60.0;
+    let cube = add_cube(&mut world, 50.0, 0.1, [0.0, -2.1, 0.0]);
+    let mut set = CableSet::new();
+    let builder = cable([0.0; 3], [0.0, -2.0, 0.0], soft())
+        .fix(At::Start)
+        .rule(Fidelity::Game.rule())
+        .integrator(Integrator::ADAPTIVE);
+    let sling = set.insert(builder.build().unwrap());
+    set.attach(&world, sling, At::End, cube, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    set.equilibrium(&mut world).unwrap();
+    world.bodies[cube].set_linvel(Vector::new(0.1, 0.0, 0.0), true);
+    let steps = |set: &CableSet| set.get(sling).unwrap().diagnostics().steps;
+    for _ in 0..60 {
+        set.step(&mut world).unwrap();
+    }
+    let before = steps(&set);
+    for _ in 0..60 {
+        set.step(&mut world).unwrap();
+    }
+    let calm = steps(&set) - before;
+    println!("{calm} steps in 60 host steps");
+    assert!(calm < 150, "{calm} steps in 60 host steps");
+    let before = steps(&set);
+    let velocity = world.bodies[cube].linvel();
+    world.bodies[cube].set_linvel(velocity + Vector::new(0.01, 0.0, 0.0), true);
+    set.step(&mut world).unwrap();
+    assert!(steps(&set) - before >= 4);
 }

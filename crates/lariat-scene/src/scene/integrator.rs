@@ -22,6 +22,9 @@ table! {
         substeps: Option<u32> = (), Kind::Whole(1, MANY);
         /// Longest step.
         max_step: Option<f64> = (), Kind::Number(POSITIVE), "s";
+        /// Position error in 1/60 s that the method `"discrete-gradient"` keeps with 1 or 2 equal steps in that time; else it takes 4, or 8
+        /// where these halve a large error. A cable shorter than 1 m may err by as much less.
+        adaptive: Option<f64> = (), Kind::Number(POSITIVE), "m";
         /// Share of the stability limit, for an explicit method.
         stable: Option<f64> = (), Kind::Number(SHARE);
         /// How much the method `"discrete-gradient"` damps: a motion of angular frequency w loses
@@ -30,7 +33,7 @@ table! {
         /// Choice of accuracy against time.
         fidelity: Option<Fidelity> = (), Kind::Choice(|| Fidelity::ALL.map(Fidelity::name).to_vec());
     }
-    choose Choose::ExactlyOne(&["tolerance", "substeps", "max_step", "stable", "fidelity"]);
+    choose Choose::ExactlyOne(&["tolerance", "substeps", "max_step", "adaptive", "stable", "fidelity"]);
 }
 
 /// Reads the integrator at a path.
@@ -55,10 +58,13 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, row: &IntegratorTable) -> R
         ),
         ("substeps", row.substeps.map(StepControl::Substeps)),
         ("max_step", row.max_step.map(StepControl::MaxStep)),
+        ("adaptive", row.adaptive.map(StepControl::Adaptive)),
         ("stable", row.stable.map(StepControl::Stable)),
     ];
     let Some((key, control)) = controls.into_iter().find_map(|(key, control)| control.map(|c| (key, c))) else {
-        return Err(doc.error(at, Problem::NoneGiven(&["tolerance", "substeps", "max_step", "stable", "fidelity"])));
+        return Err(
+            doc.error(at, Problem::NoneGiven(&["tolerance", "substeps", "max_step", "adaptive", "stable", "fidelity"]))
+        );
     };
     if row.norm.is_some() && key != "tolerance" {
         return Err(doc.missing(&at.key("tolerance")));
@@ -117,7 +123,7 @@ pub(super) fn by_discrete_gradient(
         _ => Err(doc.error_accepting(
             at,
             Problem::Conflict(format!("{method} cannot step {what}")),
-            "{ fidelity = \"game\" } or \"engineering\", or the method \"discrete-gradient\" with tolerance, substeps or max_step",
+            "{ fidelity = \"game\" } or \"engineering\", or the method \"discrete-gradient\" with tolerance, substeps, max_step or adaptive",
         )),
     }
 }

@@ -17,7 +17,7 @@
 //! not known, after an impact or a change by the host, the length stays.
 
 use super::safeguard::{Advanced, Demand};
-use super::{DiscreteGradientSystem, safeguard};
+use super::{DiscreteGradientSystem, pace, safeguard};
 use crate::error::StepFailure;
 use crate::integrate::step_control::{Counts, FailedStep};
 use crate::integrate::{IntegratorRef, StepControl, WorkLimit};
@@ -41,11 +41,19 @@ pub(crate) fn advance<S: DiscreteGradientSystem>(
         let outcome = controlled(system, demand, (tolerance, horizon), &mut counts);
         return (counts, outcome);
     }
+    if let StepControl::Adaptive(tolerance) = integrator.control {
+        let demand = Demand { leg, limit: integrator.limit, ..Demand::FIXED };
+        let outcome = pace::advance(system, demand, (tolerance, horizon), &mut counts);
+        return (counts, outcome);
+    }
     let longest = match integrator.control {
         StepControl::Substeps(substeps) => horizon / f64::from(substeps),
         StepControl::MaxStep(longest) => longest * (1.0 + SINGLE_PRECISION_ROUNDING),
         // rejected by `IntegratorRef::check`, or handled above
-        StepControl::Tolerance(_) | StepControl::ToleranceOf(..) | StepControl::Stable(_) => horizon,
+        StepControl::Tolerance(_)
+        | StepControl::ToleranceOf(..)
+        | StepControl::Adaptive(_)
+        | StepControl::Stable(_) => horizon,
     };
     let steps = (horizon / longest - 1e-9).ceil().max(1.0);
     let (h, end) = (horizon / steps, system.time() + horizon);

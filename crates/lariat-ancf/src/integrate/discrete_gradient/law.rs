@@ -1,5 +1,6 @@
 //! What a system with discrete gradients must be able to do.
 
+use super::Pace;
 use crate::error::StepFailure;
 use crate::term::{Balance, Reason, Settled, Stage, StepStart, Verdict};
 
@@ -42,6 +43,24 @@ pub(crate) trait DiscreteGradientSystem {
 
     /// Returns the estimated error of the step in m; 0 where it is not known.
     fn error(&mut self) -> f64;
+
+    /// Returns the estimated error of the step in m, of all cables and bodies; `None` where it is
+    /// not known.
+    fn estimate(&mut self) -> Option<f64>;
+
+    /// Returns whether the host step may not have longer steps than those of games: what has
+    /// contact, reels, twists, or was changed by the host since the last step.
+    fn needs_short_steps(&self) -> bool;
+
+    /// Returns the size in m of which errors are a share: the length of the shortest cable, and at
+    /// most 1 m.
+    fn size(&self) -> f64;
+
+    /// Returns what is remembered of the numbers of steps.
+    fn pace(&self) -> Pace;
+
+    /// Remembers it.
+    fn set_pace(&mut self, pace: Pace);
 
     /// Returns the length in s that error control proposed for the next step, or 0.
     fn proposal(&self) -> f64;

@@ -34,9 +34,10 @@
 //!
 //! # Validity
 //!
-//! Any stiffness, any step. Games: h = 1/240 s. The error of a slow motion is that of the midpoint
-//! rule; fast modes are not resolved, but bounded. With a tolerance steps follow an estimate of
-//! that error (advance.rs), with a = 1/256, and impulses balance to 1e-3.
+//! Any stiffness, any step. Games: h = 1/240 s, or by choice other steps (pace.rs).
+//! The error of a slow motion is that of the midpoint rule; fast modes are not resolved,
+//! but bounded. With a tolerance steps follow an estimate of that error (advance.rs), with a =
+//! 1/256, and impulses balance to 1e-3.
 //!
 //! # References
 //!
@@ -50,6 +51,7 @@
 
 mod advance;
 mod law;
+mod pace;
 mod relaxation;
 mod safeguard;
 
@@ -57,6 +59,7 @@ use super::{Dynamics, OneStep, Scratch, State, StepRequest};
 use crate::error::{Error, StepFailure, require};
 use crate::scales::integrate::ALPHA;
 pub use crate::state::Differences;
+pub use crate::state::Pace;
 pub use crate::term::EnergyLaw;
 pub(crate) use advance::advance;
 pub(crate) use law::{DiscreteGradientSystem, Event, share_to_take, sum_of_forces};

@@ -48,6 +48,17 @@ use crate::scales::integrate::{
 use crate::scales::term::CLOSURE;
 use crate::term::{Balance, Reason, Settled, Stage, StepStart, Verdict};
 
+/// Which error of a step is estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Estimate {
+    /// None.
+    No,
+    /// That which a tolerance bounds: 0 where it is not known.
+    Tolerance,
+    /// That of all cables and bodies: infinite where it is not known.
+    Pace,
+}
+
 /// What is demanded of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Demand<'a> {
@@ -61,8 +72,8 @@ pub(super) struct Demand<'a> {
     pub for_forces: usize,
     /// Largest estimated error in m.
     pub allowed: f64,
-    /// Whether the error is estimated.
-    pub is_controlled: bool,
+    /// Which error is estimated.
+    pub estimate: Estimate,
     pub limit: Option<&'a WorkLimit>,
 }
 
@@ -75,7 +86,7 @@ impl Demand<'_> {
         may_owe: MOMENTUM_TOLERANCE_OF_STEP,
         for_forces: MAX_FOR_FORCES,
         allowed: f64::INFINITY,
-        is_controlled: false,
+        estimate: Estimate::No,
         limit: None,
     };
     /// Of steps whose error is controlled: what the iteration leaves is then below the estimate.
@@ -83,7 +94,7 @@ impl Demand<'_> {
         imbalance: FORCE_TOLERANCE_UNDER_CONTROL,
         may_owe: MOMENTUM_TOLERANCE_UNDER_CONTROL,
         for_forces: MAX_ITERATIONS_OF_STEP,
-        is_controlled: true,
+        estimate: Estimate::Tolerance,
         ..Demand::FIXED
     };
 }
@@ -231,8 +242,11 @@ fn accept<S: DiscreteGradientSystem>(
     demand: &Demand<'_>,
 ) -> Result<Advanced, StepFailure> {
     // the parts of a step are taken in any case
-    let is_controlled = demand.is_controlled && depth == 0;
-    let error = if is_controlled { system.error() } else { 0.0 };
+    let error = match demand.estimate {
+        Estimate::Tolerance if depth == 0 => system.error(),
+        Estimate::Pace if depth == 0 => system.estimate().unwrap_or(f64::INFINITY),
+        _ => 0.0,
+    };
     if error > demand.allowed {
         return Ok(Advanced::TooFar(error));
     }

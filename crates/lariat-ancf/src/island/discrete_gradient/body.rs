@@ -34,6 +34,7 @@
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps
 //! neither energy nor angular momentum.
 
+use super::error::Factors;
 use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
 use crate::integrate::discrete_gradient::sum_of_forces;
@@ -82,6 +83,8 @@ pub(in crate::island) struct BodyStep {
     kept: f64,
     /// Whether its state at the beginning of the host step was not that of the last one.
     moved: bool,
+    /// Whether something about it was changed since the last step.
+    pub changed: bool,
     /// O u.
     before: Vector6<f64>,
     /// D u.
@@ -145,6 +148,7 @@ impl BodyStep {
             rotation: body.rotation,
             velocity: stack([body.velocity, spin]),
             moved: last.step == 0.0,
+            changed: !body.is_as_after_last_step(),
             last,
             h: 0.0,
             leg: OneLeg::default(),
@@ -255,14 +259,19 @@ impl BodyStep {
 
     /// Returns the estimated error in m of a point of the body in a step of smooth motion; 0 where
     /// it is not known, and of one that cannot move.
-    pub fn error(&self, anchor: Vector3<f64>) -> f64 {
+    pub fn error(&self, anchor: Vector3<f64>, factors: Factors) -> f64 {
         let before = self.last.step;
         if before == 0.0 || self.kept == 0.0 || self.is_driven() {
             return 0.0;
         }
-        let [of_change, of_before] = self.leg.error_factors(self.h / before, self.kept);
+        let [of_change, of_before] = factors(&self.leg, self.h / before, self.kept);
         let [v, spin] = split(&(self.change * of_change - self.before * of_before));
         self.h * (v + self.rotation * spin.cross(&anchor)).norm()
+    }
+
+    /// Returns whether the error of a step is known.
+    pub fn is_estimated(&self) -> bool {
+        self.last.step > 0.0 && self.kept > 0.0
     }
 
     /// Returns what the step does not take up of the changes of the one before, so that half its

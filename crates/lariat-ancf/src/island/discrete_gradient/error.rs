@@ -30,9 +30,13 @@
 //! Two half steps and their difference (Richardson): three times the work; the extrapolated state
 //! makes energy at any a below 1/16.
 
-use super::IslandStep;
 use super::body::BodyStep;
+use super::{IslandStep, StepBuffers};
+use crate::one_leg::OneLeg;
 use crate::system::{CableStep, project_vector};
+
+/// Factors of a formula on D v and O v.
+pub(super) type Factors = fn(&OneLeg, f64, f64) -> [f64; 2];
 
 impl IslandStep<'_, '_> {
     /// Returns the estimated error of the iterate in m; 0 where it is not known.
@@ -41,14 +45,29 @@ impl IslandStep<'_, '_> {
             return 0.0;
         }
         if self.buffers.bodies.iter().any(|body| body.free.contains(&true)) {
-            return self.error_of_bodies();
+            return self.error_of_bodies(OneLeg::error_factors);
         }
-        self.cables.iter_mut().map(|cable| error_of_cable(cable.step_parts())).fold(0.0, f64::max)
+        let errors = self.cables.iter_mut().map(|cable| error_of_cable(cable.step_parts(), OneLeg::error_factors));
+        errors.fold(0.0, f64::max)
     }
 
-    fn error_of_bodies(&self) -> f64 {
-        let centres = self.buffers.bodies.iter().map(|body| body.error([0.0; 3].into()));
-        let pins = self.layout.pins.iter().map(|pin| self.buffers.bodies[pin.body].error(pin.anchor));
+    /// Returns the estimated error of the iterate in m, the largest of all cables and free bodies;
+    /// `None` where it is not known.
+    pub(super) fn estimate_of_step(&mut self) -> Option<f64> {
+        let StepBuffers { unsteady, bodies, .. } = &*self.buffers;
+        if *unsteady || bodies.iter().any(|body| body.free.contains(&true) && !body.is_estimated()) {
+            return None;
+        }
+        let bodies = self.error_of_bodies(OneLeg::smooth_error_factors);
+        self.cables.iter_mut().try_fold(bodies, |largest, cable| {
+            let known = cable.snapshot.state.memory.differences.step > 0.0 && cable.step_buffers.kept > 0.0;
+            known.then(|| largest.max(error_of_cable(cable.step_parts(), OneLeg::smooth_error_factors)))
+        })
+    }
+
+    fn error_of_bodies(&self, factors: Factors) -> f64 {
+        let centres = self.buffers.bodies.iter().map(|body| body.error([0.0; 3].into(), factors));
+        let pins = self.layout.pins.iter().map(|pin| self.buffers.bodies[pin.body].error(pin.anchor, factors));
         centres.chain(pins).fold(0.0, f64::max)
     }
 
@@ -61,12 +80,12 @@ impl IslandStep<'_, '_> {
 }
 
 /// Returns the error of a cable.
-fn error_of_cable(CableStep { mut equations, state, buffers: b }: CableStep<'_>) -> f64 {
+fn error_of_cable(CableStep { mut equations, state, buffers: b }: CableStep<'_>, factors: Factors) -> f64 {
     let before = state.memory.differences.step;
     if before == 0.0 || b.kept == 0.0 {
         return 0.0;
     }
-    let [of_change, of_before] = b.leg.error_factors(b.h / before, b.kept);
+    let [of_change, of_before] = factors(&b.leg, b.h / before, b.kept);
     for i in 0..b.external.len() {
         b.external[i] = b.h * (of_change * b.velocity_change[i] - of_before * b.velocity_before[i]);
     }

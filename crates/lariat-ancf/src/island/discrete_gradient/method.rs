@@ -3,7 +3,7 @@
 use super::terms::Terms;
 use super::{IslandStep, rescale};
 use crate::error::StepFailure;
-use crate::integrate::discrete_gradient::{DiscreteGradientSystem, Event};
+use crate::integrate::discrete_gradient::{DiscreteGradientSystem, Event, Pace};
 use crate::system::CableStep;
 use crate::term::{Balance, Settled, Stage, StepStart, StepTerm, Verdict};
 
@@ -68,6 +68,26 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
 
     fn error(&mut self) -> f64 {
         self.error_of_step()
+    }
+
+    fn estimate(&mut self) -> Option<f64> {
+        self.estimate_of_step()
+    }
+
+    fn needs_short_steps(&self) -> bool {
+        self.is_disturbed()
+    }
+
+    fn size(&self) -> f64 {
+        self.size_of_shortest()
+    }
+
+    fn pace(&self) -> Pace {
+        self.cables.iter().fold(Pace::default(), |pace, cable| pace.and(&cable.snapshot.state.memory.pace))
+    }
+
+    fn set_pace(&mut self, pace: Pace) {
+        self.cables.iter_mut().for_each(|cable| cable.snapshot.state.memory.pace = pace);
     }
 
     fn proposal(&self) -> f64 {

@@ -23,6 +23,7 @@ mod body;
 mod cables;
 mod contacts;
 mod coupled;
+mod disturbed;
 mod error;
 mod holds;
 mod host_step;
