@@ -208,6 +208,16 @@ pub struct DrumFailed {
     pub error: Error,
 }
 
+/// A body cannot be in water; or the water cannot be, for which the entity is `Entity::PLACEHOLDER`. It is tried again when the
+/// component, the body or the water changes.
+#[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
+pub struct WaterFailed {
+    /// The body.
+    pub entity: Entity,
+    /// The cause.
+    pub error: Error,
+}
+
 /// A sheave cannot be made, or ended with one of its cables or attachments. It is tried again when its component changes, or when
 /// a cable is spawned.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
@@ -239,7 +249,8 @@ macro_rules! for_each_event {
             JunctionFailed,
             JunctionEnded,
             DrumFailed,
-            SheaveFailed
+            SheaveFailed,
+            WaterFailed
         );
     };
 }

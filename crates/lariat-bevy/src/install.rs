@@ -8,7 +8,7 @@ use crate::event;
 use crate::mesh;
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::prepare::{self, attachments, bodies, drums, effects, junctions, passing, reels, removals, sheaves};
+use crate::prepare::{self, attachments, bodies, drums, effects, junctions, passing, reels, removals, sheaves, water};
 use crate::publish;
 use crate::reel::{Reel, ReelAtStart};
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
@@ -83,6 +83,7 @@ fn add_prepare(schedule: &mut Schedule) {
             removals::remove,
             prepare::build_cables,
             bodies::update,
+            water::update,
             effects::watch,
             effects::update,
             junctions::update,

@@ -44,7 +44,7 @@
 //! | wind it on a body that turns, run it over a wheel into another | [`Drum`], [`Sheave`], [`SheaveAlong`] |
 //! | bound the work of a host step | [`Budget`] in [`Settings`], [`CableDegraded`](event::CableDegraded) |
 //! | let it break, cut it | [`BreakForce`], [`BreakTension`], [`BreakStrain`], [`Cables::cut`] |
-//! | let bodies float, sink, ride on waves | [`lariat_rapier::water::BodiesInWater`] in a resource of yours, applied to [`Physics`] and [`Cables::set`] in a system before [`CableStep`], after the forces of its bodies were reset |
+//! | let bodies float, sink, ride on waves | [`Sea`], [`InWater`] |
 //! | make bodies | [`Body`], [`KinematicTarget`], [`BodyPose`], [`Bodies`] |
 //! | step | [`advance`], or [`CableStep`] in a schedule of your own; with feature `bevy_app` the plugin |
 //! | order systems against the stages of a step | [`CableSystems`] |
@@ -106,6 +106,7 @@ mod sheave;
 mod snapshot;
 mod step;
 mod strength;
+mod water;
 
 pub use attachment::{
     Attachment, AttachmentDraft, AttachmentReading, BodyAttachments, BreakForce, CableAttachments, OnCable, ToBody,
@@ -135,3 +136,4 @@ pub use schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierSte
 pub use sheave::Sheave;
 pub use snapshot::Snapshot;
 pub use strength::{BreakStrain, BreakTension};
+pub use water::{InWater, Sea};

@@ -367,3 +367,56 @@ fn what_is_no_body_in_water_is_refused() {
     assert!(water.remove(&mut world, bare));
     assert!((f64::from(world.bodies[bare].mass()) - 1.0).abs() < 1e-6);
 }
+
+/// A ball falls freely, on its own and on a rope, although it has added mass in water; it comes in with the momentum of both, and
+/// goes out with the velocity that it has. No step makes energy of it.
+///
+/// *Source.* Free fall; m v = (m + a) v'.
+#[test]
+fn a_body_has_its_added_mass_in_water_alone() {
+    let (radius, density, c) = (0.1, 1500.0, 0.5);
+    let mass = density * 4.0 / 3.0 * PI * f64::powi(radius, 3);
+    let added = c * RHO / density * mass;
+    for (height, dt, tied) in [(6.0, 1.0 / 60.0, false), (6.0, 1.0 / 240.0, true), (2.3, 1.0 / 30.0, false)] {
+        let start = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, height as f32, 0.0));
+        let shape = ColliderBuilder::ball(radius as f32).density(density as f32);
+        let mut tank = Tank::new(start, shape, sea(), Immersed::default().with_added_mass(c), dt);
+        if tied {
+            let section = Section::from_stiffness(1e4, 0.0, 1e-3).unwrap();
+            let slack = Cable::builder().points([Vector3::new(0.1, height, 0.0), Vector3::new(0.0, height, 0.0)]);
+            let slack = tank.cables.insert(slack.length(20.0).section(section).elements(10).build().unwrap());
+            tank.cables.attach(&tank.world, slack, At::End, tank.body, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        }
+        let (mut before, mut after) = (0.0, 0.0);
+        let mut fallen = 0.0;
+        for step in 1..=(2.0 / dt) as usize {
+            let speed = tank.speed();
+            tank.step();
+            let time = step as f64 * dt;
+            if f64::from(tank.body().mass()) < mass * (1.0 + 1e-6) {
+                fallen = height - tank.y();
+                let expected = 0.5 * G * time * time;
+                // Rapier's steps are of first order
+                assert!((fallen / expected - 1.0).abs() < 1.5 * dt / time + 1e-2, "{time}: {fallen} {expected}");
+            } else if after == 0.0 {
+                (before, after) = (speed, tank.speed());
+            }
+        }
+        // within the step it gains weight less buoyancy over m + a, at most
+        let (expected, step) = (before * mass / (mass + added), G * dt);
+        println!("{height} {tied}: fell {fallen}, {before} to {after}, {expected}");
+        assert!(fallen > 0.8 * (height - radius), "{fallen} of {height}");
+        assert!((after - expected).abs() < step, "{after} {expected}");
+        assert!((f64::from(tank.body().mass()) / (mass + added) - 1.0).abs() < 1e-5);
+    }
+    // one that is thrown out has the velocity with which it left, and its own mass
+    let start = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -0.3, 0.0)).linvel(Vector::new(0.0, 6.0, 0.0));
+    let shape = ColliderBuilder::ball(radius as f32).density(density as f32);
+    let mut tank = Tank::new(start, shape, sea(), Immersed::default().with_added_mass(c), 1.0 / 240.0);
+    tank.run(0.2);
+    let (y, v) = (tank.y(), tank.speed());
+    assert!(y > 0.3 && (f64::from(tank.body().mass()) / mass - 1.0).abs() < 1e-6);
+    tank.run(0.25);
+    let expected = y + v * 0.25 - 0.5 * G * 0.0625;
+    assert!((tank.y() - expected).abs() < 1e-2, "{} {expected}", tank.y());
+}

@@ -206,3 +206,38 @@ fn drums_that_do_not_fit_are_refused() {
     let error = run::World::build(&scene).and_then(|mut world| world.start(Purpose::Static)).unwrap_err().to_string();
     assert!(error.contains("on a drum") && error.contains("balances the pull"), "{error}");
 }
+
+/// A reel that moves more than half an element in a host step is stepped in shorter ones: hoisting at 7 m/s at 1/15 s, and a free spool.
+///
+/// *Source.* Ramps of the rate by hand; free fall with the rope that is out.
+#[test]
+fn a_fast_reel_divides_the_host_step() {
+    let text = |reel: &str, dt: f64, duration: f64| {
+        format!(
+            "duration = {duration:?}\ndt = {dt:?}\n[[body]]\nname = \"b\"\nshape = {{ ball = 0.1 }}\nmass = 6.0\nposition = [0.0, -2.1, 0.0]\n\
+             [[cable]]\nname = \"c\"\npoints = [[0.0, 0.0, 0.0], [0.0, -2.0, 0.0]]\naxial_stiffness = 3e5\nbending_stiffness = 1e-3\nmass_per_length = 0.05\n\
+             elements = 24\nintegrator = {{ fidelity = \"game\" }}\ndamping = {{ axial = 4e-3 }}\n[cable.reel]\nend = \"start\"\n{reel}\n\
+             [[attachment]]\nname = \"eye\"\ncable = \"c\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"c\"\nat = \"end\"\nbody = \"b\"\nanchor = [0.0, 0.1, 0.0]\n[[probe]]\nname = \"r\"\nreel = \"c\"\n"
+        )
+    };
+    let out = |text: &str| -> f64 {
+        let scene = Scene::parse("scene.toml", text, &[], Purpose::Run).unwrap();
+        let recording = run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap();
+        assert!(recording.failed.is_none(), "{:?}", recording.failed);
+        let probe = &recording.probes[0];
+        let last = &probe.rows[probe.rows.len() - probe.columns.len()..];
+        last[probe.columns.iter().position(|name| *name == "length_out").unwrap()]
+    };
+    for dt in [1.0 / 15.0, 1.0 / 30.0, 1.0 / 60.0] {
+        // 9 m/s^2 to 7 m/s, then 7 m/s, in 1.2 s
+        let paid = out(&text("rate = [[0.0, 7.0]]\nacceleration = 9.0", dt, 1.2)) - 2.0;
+        let expected = 7.0 * (1.2 - 0.5 * 7.0 / 9.0);
+        println!("{dt}: paid out {paid} of {expected}");
+        assert!((paid / expected - 1.0).abs() < 1e-3, "{dt}: {paid} {expected}");
+        let free = out(&text("rate = [[0.0, 0.0]]\nmax_force = 0.0", dt, 1.2)) - 2.0;
+        let fall = 0.5 * 9.81 * 1.44;
+        println!("{dt}: a free spool {free} of {fall}");
+        assert!((free / fall - 1.0).abs() < 0.05, "{dt}: {free} {fall}");
+    }
+}

@@ -2,10 +2,10 @@
 //!
 //! # Equation
 //!
-//! A cable between its drawn ends, held there, hangs in equilibrium under its weight, constant loads
-//! per length and the buoyancy of water at rest: as it is installed, before wind, currents and loads
-//! at points. Of its length L, the tension at its middle and the sag are functions that the statics of
-//! the cable give, and L is the root of
+//! A cable between its drawn ends, held there, hangs in equilibrium under its weight, constant
+//! loads per length and the buoyancy of water at rest: as it is installed, before wind, currents
+//! and loads at points. Of its length L, the tension at its middle and the sag are functions that
+//! the statics of the cable give, and L is the root of
 //!
 //! ```text
 //! T(L/2; L) = T_0   or   max_s d(s; L) = d_0        d: distance from the drawn line, along gravity

@@ -23,9 +23,10 @@
 //! cm/s, is added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is
 //! the tangent of friction, S the step matrix without contacts; the sum is the matrix that the last
 //! iteration factored. So an impulse spreads through cable and bodies as those of the step did.
-//! Where a contact slips, the friction of the impulse that is taken back goes with it, with l of a
-//! first solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of
-//! contacts that a step does not resolve is taken at once.
+//! Normals and arms are those of the matrix, of the mean of the step, so that an impulse is on the
+//! line on which the matrix sees it. Where a contact slips, the friction of the impulse that is
+//! taken back goes with it, with l of a first solve. `G/m` is `b (h omega)^2` with the frequency
+//! omega of the contact: the velocity of contacts that a step does not resolve is taken at once.
 //!
 //! The energy of motion and of the store change by
 //!
@@ -173,11 +174,12 @@ impl ContactStep {
             point.clear_impact();
             if point.may_leave() {
                 let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
+                let linear = &point.linear;
                 let of_obstacle = |when: When| match step.body {
-                    Some(index) => body(when, index, &now.arm),
+                    Some(index) => body(when, index, &linear.arm),
                     None => step.velocity_at(&(now.arm + 0.5 * now.slip)),
                 };
-                let (shape, normal, obstacle) = (&point.shape, now.normal, of_obstacle(When::End));
+                let (shape, normal, obstacle) = (&point.shape, linear.tangents.across, of_obstacle(When::End));
                 let came = if point.restitution > 0.0 {
                     let before = velocity(When::Begin, element, shape) - of_obstacle(When::Begin);
                     (-normal.dot(&before)).max(0.0)
@@ -202,7 +204,7 @@ impl ContactStep {
         for point in self.points.iter().filter(|point| point.impact.acts()) {
             add_force(rhs, point.key.0 as usize, &point.shape, &point.impact.row);
             if let Some(body) = self.obstacles[point.obstacle].body {
-                let angular = point.now.arm.cross(&point.impact.row);
+                let angular = point.linear.arm.cross(&point.impact.row);
                 for x in 0..3 {
                     rows[6 * body + x] -= point.impact.row[x];
                     rows[6 * body + 3 + x] -= angular[x];
@@ -222,7 +224,7 @@ impl ContactStep {
         let mut changed = false;
         for point in self.points.iter_mut().filter(|point| point.impact.acts()) {
             let body = self.obstacles[point.obstacle].body;
-            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &point.now.arm));
+            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &point.linear.arm));
             let taken = taken(point.key.0 as usize, &point.shape) - of_obstacle;
             changed |= point.settle_impact(&taken, self.h, first);
         }

@@ -74,6 +74,6 @@ pub(crate) const SMALL: f64 = 1e-12;
 /// it is on. Unknown: ten times that of gravity; at 5 m/s it takes 0.13 m.
 pub(crate) const STOP: f64 = 100.0;
 
-/// Largest share of an element that passes an eye in a step of an island. Derived: what is left is no
-/// shorter than what passes.
+/// Largest share of an element that passes an eye in a step of an island. Derived: what is left is
+/// no shorter than what passes.
 pub(crate) const LARGEST_SHARE: f64 = 0.5;

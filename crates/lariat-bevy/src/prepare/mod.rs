@@ -10,6 +10,7 @@ pub(crate) mod passing;
 pub(crate) mod reels;
 pub(crate) mod removals;
 pub(crate) mod sheaves;
+pub(crate) mod water;
 
 use crate::cable::{Cable, build};
 use crate::cables::Cables;

@@ -16,4 +16,5 @@ mod order;
 mod pendulum;
 mod plugin;
 mod snapshots;
+mod water;
 mod wheels;

@@ -4,7 +4,7 @@ use super::hull::Hull;
 use super::immersed::Immersed;
 use super::member::{Input, Member, WaterForce};
 use super::still::StillWater;
-use crate::convert::{rotation, vector};
+use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use ::nalgebra::Vector3;
 use lariat_ancf::Water;
@@ -58,9 +58,14 @@ impl BodiesInWater {
         self.members.iter().map(|member| member.body)
     }
 
-    /// Returns volume (m^3) and added mass (kg) of a body.
+    /// Returns what water does to a body that is in it.
+    pub fn immersed(&self, body: RigidBodyHandle) -> Option<&Immersed> {
+        self.members.iter().find(|m| m.body == body).map(|m| &m.immersed)
+    }
+
+    /// Returns volume (m^3) and added mass (kg) of a body, which has none while it is in air.
     pub fn volume_and_added_mass(&self, body: RigidBodyHandle) -> Option<(f64, f64)> {
-        self.members.iter().find(|m| m.body == body).map(|m| (m.volume(), m.added))
+        self.members.iter().find(|m| m.body == body).map(|m| (m.volume(), m.carried()))
     }
 
     /// Puts a dynamic body into the water, with its present mass and colliders, and adds its added
@@ -107,7 +112,7 @@ impl BodiesInWater {
         let Some(i) = self.members.iter().position(|m| m.body == body) else { return false };
         let member = self.members.remove(i);
         if world.bodies.contains(body) {
-            add_mass(world, body, -member.added);
+            add_mass(world, body, -member.carried());
         }
         true
     }
@@ -171,6 +176,11 @@ impl BodiesInWater {
             }
             let lead = if coupled(member.body) { 0.0 } else { further };
             let input = Input { water, sea: sea.as_ref(), gravity, time: *time + from + 0.5 * h, h, lead };
+            if let Some((mass, velocity)) = member.meet(body, &input) {
+                body.set_linvel(to_vector(&velocity), true);
+                add_mass(world, member.body, mass);
+            }
+            let Some(body) = world.bodies.get_mut(member.body) else { continue };
             let fast = member.fastest(body) > sleep_speed;
             member.put_on(body, &input);
             if moves || fast {

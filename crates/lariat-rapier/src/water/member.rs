@@ -42,9 +42,12 @@ struct Acting {
 pub(super) struct Member {
     pub(super) body: RigidBodyHandle,
     hull: Hull,
-    immersed: Immersed,
-    /// Added mass in kg, part of that of the body.
-    pub(super) added: f64,
+    pub(super) immersed: Immersed,
+    /// Added mass in kg, part of that of the body while any of it is wet.
+    added: f64,
+    /// Whether all of it is in air.
+    #[serde(default)]
+    dry: bool,
     /// Volume in m^3 that it displaces when it floats.
     floating: f64,
     memory: Memory,
@@ -101,12 +104,45 @@ impl Member {
     /// it floats.
     pub(super) fn new(body: RigidBodyHandle, hull: Hull, immersed: Immersed, (added, floating): (f64, f64)) -> Self {
         let memory = Memory::default();
-        Member { body, hull, immersed, added, floating, memory, work: 0.0, acting: None }
+        Member { body, hull, immersed, added, dry: false, floating, memory, work: 0.0, acting: None }
     }
 
     /// Returns the volume in m^3.
     pub(super) fn volume(&self) -> f64 {
         self.hull.volume()
+    }
+
+    /// Returns the added mass in kg that the body has now.
+    pub(super) fn carried(&self) -> f64 {
+        if self.dry { 0.0 } else { self.added }
+    }
+
+    /// Finds whether all of the body is in air over a step. Returns the mass in kg to add to it if that
+    /// has changed, and its velocity (m/s) then: the water that it takes along has its momentum, and
+    /// keeps that when it is left behind.
+    pub(super) fn meet(&mut self, body: &RigidBody, input: &Input<'_>) -> Option<(f64, Vector3<f64>)> {
+        if self.added == 0.0 || input.sea.is_none() {
+            return None;
+        }
+        let (turn, velocity) = (rotation(*body.rotation()), vector(body.linvel()));
+        let centre = vector(body.translation()) + turn * self.hull.centre();
+        let dry_at = |centre: &Vector3<f64>| self.wet(input, centre, &turn).volume <= 0.0;
+        let dry = dry_at(&centre) && dry_at(&(centre + velocity * input.h));
+        if dry == self.dry {
+            return None;
+        }
+        let mass = f64::from(body.mass());
+        let (change, after) = if dry {
+            (-self.added, velocity)
+        } else {
+            let wave = input.sea.map_or(Vector3::zeros(), |sea| sea.at(input.time, &centre).velocity);
+            let water = input.water.current(input.time, &centre) + wave;
+            (self.added, (velocity * mass + water * self.added) / (mass + self.added))
+        };
+        self.work += 0.5 * ((mass + change) * after.norm_squared() - mass * velocity.norm_squared());
+        self.forget();
+        self.dry = dry;
+        Some((change, after))
     }
 
     /// Forgets the last step.
@@ -152,7 +188,7 @@ impl Member {
         let relative = rotation.inverse() * -water.current(time, &(centre + arm));
         let coefficient = self.immersed.drag_area * (0.5 * water.density * share);
         let drag = rotation * (coefficient.component_mul(&relative) * -relative.norm());
-        let weight = gravity * (-scale * self.added);
+        let weight = gravity * (-scale * self.carried());
         let of_water = match sea {
             Some(sea) => gravity.norm() * sea.depth(time, &(centre + lever)),
             None => gravity.dot(&(centre + lever)),
@@ -195,7 +231,7 @@ impl Member {
         let memory = self.memory;
         let (force, turned) = self.force(body, input);
         let (centre, scale) = (vector(body.local_center_of_mass()), f64::from(body.gravity_scale()));
-        let sum = force.pressure + force.drag + force.inertia - input.gravity * (scale * self.added);
+        let sum = force.pressure + force.drag + force.inertia - input.gravity * (scale * self.carried());
         let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
             + (turned * (force.drag_point - centre)).cross(&force.drag)
             + force.moment;
@@ -235,7 +271,7 @@ impl Member {
         let &Input { water, sea, gravity, time, h, lead } = input;
         let (rho, half) = (water.density, 0.5 * h);
         let (mass, velocity, spin) = (f64::from(body.mass()), vector(body.linvel()), vector(body.angvel()));
-        let weight = gravity * ((mass - self.added) * f64::from(body.gravity_scale()));
+        let weight = gravity * ((mass - self.carried()) * f64::from(body.gravity_scale()));
         let known = weight + vector(body.user_force());
         let others = known + self.unknown(mass, &velocity);
         let turned = UnitQuaternion::from_scaled_axis(spin * half) * rotation(*body.rotation());

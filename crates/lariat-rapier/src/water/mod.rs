@@ -52,7 +52,10 @@
 //!   body is a plane with the slope of the wave. No diffraction, no damping by waves that the body
 //!   makes; added mass does not depend on frequency, and is alike in all directions: one for each
 //!   axis would make Rapier's mass a matrix, which it has not.
-//! - The added mass of a body that leaves the water stays in its mass. No slamming.
+//! - Added mass is in the mass of a body while any of it is wet. The body takes it up when it
+//!   comes in, all at once, with the momentum of both (von Karman 1929, of slamming, which is
+//!   spread over the time of entry), and leaves it behind when it comes out. So it falls freely in
+//!   air, and no entry makes energy.
 //! - Rapier steps of less than half a period of heave and roll, into which host steps are split
 //!   ([`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps)). Beyond that the motion of
 //!   a light float is bounded by its energy, but what does not damp within a step goes on.
@@ -67,7 +70,7 @@
 //!
 //! # References
 //!
-//! Archimedes; Morison et al. 1950; Faltinsen 1990, ch. 3 (long waves: Froude and Krylov with added
+//! Archimedes; von Karman 1929, NACA TN 321 (momentum of entry); Morison et al. 1950; Faltinsen 1990, ch. 3 (long waves: Froude and Krylov with added
 //! mass).
 //!
 //! # Alternatives considered

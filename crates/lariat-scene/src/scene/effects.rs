@@ -179,7 +179,7 @@ table! {
     keys BUOYANCY for Buoyancy("[cable.buoyancy]") {
         /// Density of the fluid.
         fluid_density = ("that of `[water]`; required without one"), Kind::Number(POSITIVE), "kg/m^3";
-        /// Coefficient of added mass; 0 for none.
+        /// Coefficient of added mass; 0 for none. It acts along all of the cable, above the level of `[water]`, too.
         added_mass = 1.0, Kind::Number(NOT_NEGATIVE);
         /// Displaced area, required for a cable without `section`.
         area = ("that of the section"), Kind::Number(POSITIVE), "m^2";

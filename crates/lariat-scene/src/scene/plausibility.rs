@@ -34,6 +34,8 @@ const SLACK: f64 = 3.0;
 const ANCHOR: f64 = 3.0;
 /// Largest size of a body over the length of a wave that it does not disturb (Faltinsen 1990, ch. 3).
 const IN_WAVES: f64 = 0.2;
+/// Largest share of a cable with added mass that is in air.
+const IN_AIR: f64 = 0.1;
 /// Largest rounding of the position of a dynamic body in m: at 1/60 s velocities are rounded to 6 mm/s then.
 const ROUNDING: f64 = 1e-4;
 /// Largest force over EA.
@@ -55,6 +57,7 @@ impl Scene {
             warnings.extend(self.unfinished_ramps());
             warnings.extend(self.fast_spins());
             warnings.extend(self.far_from_origin());
+            warnings.extend(self.added_mass_in_air());
         }
         warnings
     }
@@ -158,6 +161,27 @@ impl Scene {
     fn many_turns(&self) -> impl Iterator<Item = Warning> {
         let turned = self.bodies.iter().filter(|body| body.angle > TAU * (1.0 + 1e-6));
         turned.map(|body| Warning::ManyTurns { body: body.name.clone(), angle_rad: body.angle })
+    }
+
+    /// Returns a warning for each cable of which more than a tenth starts in air with added mass.
+    fn added_mass_in_air(&self) -> impl Iterator<Item = Warning> {
+        self.cables.iter().filter_map(|cable| {
+            let buoyancy = cable.effects.buoyancy.as_ref()?;
+            let surface = buoyancy.surface.as_ref().filter(|_| buoyancy.added_mass > 0.0)?;
+            let up = surface.up.try_normalize(0.0)?;
+            let [mut above, mut whole] = [0.0; 2];
+            for piece in cable.points.windows(2) {
+                let [one, other] = [piece[0], piece[1]].map(|point| up.dot(&point) - surface.level);
+                let length = (piece[1] - piece[0]).norm();
+                let (low, high) = (one.min(other), one.max(other));
+                let share = if low >= 0.0 { f64::from(u8::from(high > 0.0)) } else { high.max(0.0) / (high - low) };
+                (above, whole) = (above + share * length, whole + length);
+            }
+            let share = above / whole;
+            let area = buoyancy.area.or_else(|| cable.section.outer_area)?;
+            let added_kg = buoyancy.added_mass * buoyancy.fluid_density * area * cable.length;
+            (share > IN_AIR).then(|| Warning::AddedMassInAir { cable: cable.name.clone(), share, added_kg })
+        })
     }
 
     /// Returns a warning for each dynamic body of which single precision rounds the positions.

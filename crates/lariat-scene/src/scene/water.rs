@@ -50,7 +50,7 @@ table! {
         drag_area: Option<Area> = ("0"), Kind::Either(&[Kind::Number(NOT_NEGATIVE.single()), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single())]), "m^2";
         /// Drag of rotation: the moment is half of it times the density times the angular velocity squared.
         rotational_drag: Option<[f64; 3]> = ("0"), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single()), "m^5";
-        /// Coefficient of added mass on the mass of water that it displaces when it floats, or all of it if it sinks; in all directions alike.
+        /// Coefficient of added mass on the mass of water that it displaces when it floats, or all of it if it sinks; in all directions alike. It has none in air.
         added_mass: f64 = 0.0, Kind::Number(NOT_NEGATIVE.single());
     }
 }

@@ -25,6 +25,7 @@ impl Warning {
             | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::AddedMassInAir { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
             | Warning::ManyTurns { .. } => Level::Setup,
@@ -57,6 +58,7 @@ impl Warning {
             | Warning::SlowStretch { cable, .. }
             | Warning::MuchSlack { cable, .. }
             | Warning::ThickElements { cable, .. }
+            | Warning::AddedMassInAir { cable, .. }
             | Warning::LargeLoad { cable, .. } => Some(cable),
             Warning::FallsFreely { .. }
             | Warning::SheaveStopped { .. }
@@ -107,6 +109,7 @@ impl Judged for Warning {
             | Warning::MuchSlack { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::AddedMassInAir { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
             | Warning::ManyTurns { .. } => return None,
@@ -153,6 +156,7 @@ impl Judged for Warning {
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
+            Warning::AddedMassInAir { share, .. } => *share,
             Warning::FarFromOrigin { distance_m, .. } => *distance_m,
             Warning::FastSpin { turn_rad, .. } => *turn_rad,
             Warning::NoConvergence { .. }

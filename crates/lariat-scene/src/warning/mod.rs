@@ -389,6 +389,19 @@ pub enum Warning {
         /// Angle in rad.
         angle_rad: f64,
     },
+    /// A cable of which a part starts in air, with the added mass of water.
+    #[error(
+        "cable {cable:?}: {percent:.0} % of it start above the surface of the water, and its added mass of {added_kg:.3} kg acts along all of it, as if that \
+         was water, too: set buoyancy.added_mass = 0, or make two cables of it", percent = 100.0 * .share
+    )]
+    AddedMassInAir {
+        /// Name of the cable.
+        cable: String,
+        /// Share of its drawn length that is above the surface at rest.
+        share: f64,
+        /// Added mass of all of it in kg.
+        added_kg: f64,
+    },
     /// A dynamic body so far from the origin that single precision rounds its positions.
     #[error(
         "body {body:?}: it is {distance_m:.1e} m from the origin, where the single precision of bodies rounds positions to {rounding_m:.1e} m, and motions \

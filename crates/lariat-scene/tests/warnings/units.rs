@@ -165,3 +165,40 @@ fn slack_elements_and_anchors_in_other_measures_are_told() {
     assert_eq!(kinds(&text(2.1, "10", [-0.1, 0.0, 0.0])), none);
     assert_eq!(kinds(&text(2.1, "10", [2.0, 0.0, 0.0])), ["anchor"]);
 }
+
+/// A body so far away that single precision rounds it, one that spins by more than half a turn in a step, a cable in air with the added mass
+/// of water; and none of them where they are as they should be.
+#[test]
+fn far_bodies_fast_spins_and_added_mass_in_air_are_told() {
+    let text = |x: f64, spin: f64, height: f64, added: f64| {
+        format!(
+            "duration = 0.01\ndt = 0.05\n[water]\nlevel = 0.0\n[[body]]\nname = \"load\"\nshape = {{ ball = 0.1 }}\nmass = 5.0\nposition = [{:?}, 0.0, 0.0]\n\
+             [[body]]\nname = \"wheel\"\nkind = \"kinematic\"\nposition = [0.0, 9.0, 0.0]\nangular_velocity = [0.0, {spin:?}, 0.0]\n\
+             [[cable]]\nname = \"rope\"\npoints = [[{x:?}, {height:?}, 0.0], [{:?}, {height:?}, 0.0]]\n\
+             section = {{ round = 0.02 }}\ndensity = 1100.0\nyoungs_modulus = 1e8\nbuoyancy = {{ added_mass = {added:?} }}\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\nanchor = [0.0, {height:?}, 0.0]\ngap = \"close\"\n",
+            x + 2.0,
+            x + 2.0
+        )
+    };
+    let kinds = |text: &str| -> Vec<&str> {
+        let kind = |w: &Warning| match w {
+            Warning::FarFromOrigin { .. } => "far",
+            Warning::FastSpin { .. } => "spin",
+            Warning::AddedMassInAir { share, added_kg, .. } => {
+                assert!(*share == 1.0 && (added_kg / (1e3 * 3.14159265 * 1e-4 * 2.0) - 1.0).abs() < 0.03, "{w}");
+                "air"
+            }
+            _ => "",
+        };
+        let scene = Scene::parse("scene.toml", text, &[], Purpose::Run).unwrap();
+        scene.warnings(Purpose::Run).iter().map(kind).filter(|kind| !kind.is_empty()).collect()
+    };
+    let none = Vec::<&str>::new();
+    assert_eq!(kinds(&text(0.0, 60.0, -0.5, 1.0)), none);
+    assert_eq!(kinds(&text(0.0, 66.0, -0.5, 1.0)), ["spin"]);
+    assert_eq!(kinds(&text(2e3, 0.0, -0.5, 1.0)), ["far"]);
+    assert_eq!(kinds(&text(0.0, 0.0, 0.5, 1.0)), ["air"]);
+    assert_eq!(kinds(&text(0.0, 0.0, 0.5, 0.0)), none);
+}

@@ -1,0 +1,56 @@
+//! Gives the set the water and the bodies in it that a resource and components describe.
+
+use crate::body::BodyHandle;
+use crate::cables::Cables;
+use crate::event::WaterFailed;
+use crate::physics::Physics;
+use crate::water::{InWater, Sea};
+use bevy_ecs::change_detection::DetectChanges;
+use bevy_ecs::entity::Entity;
+use bevy_ecs::prelude::{Query, Ref, RemovedComponents, Res, ResMut};
+use lariat_rapier::water::BodiesInWater;
+
+/// Fills, changes and empties the water, and puts bodies into it.
+pub(crate) fn update(
+    mut cables: ResMut<Cables>,
+    mut physics: ResMut<Physics>,
+    sea: Option<Res<Sea>>,
+    bodies: Query<(Entity, Ref<InWater>, Ref<BodyHandle>)>,
+    handles: Query<&BodyHandle>,
+    mut removed: RemovedComponents<InWater>,
+) {
+    let Some(sea) = sea else {
+        if let Some(mut water) = cables.set.set_water(None) {
+            let inside: Vec<_> = water.bodies().collect();
+            inside.into_iter().for_each(|body| _ = water.remove(&mut physics, body));
+        }
+        removed.clear();
+        return;
+    };
+    for entity in removed.read() {
+        if let (Ok(body), Some(water)) = (handles.get(entity), cables.set.water_mut()) {
+            water.remove(&mut physics, body.handle);
+        }
+    }
+    let is_new = cables.set.water().is_none();
+    if sea.is_changed() || is_new {
+        let outcome = match cables.set.water_mut() {
+            Some(water) => water.set_water(sea.0.clone()),
+            None => BodiesInWater::new(sea.0.clone()).map(|water| _ = cables.set.set_water(water)),
+        };
+        if let Err(error) = outcome {
+            cables.events.push(WaterFailed { entity: Entity::PLACEHOLDER, error: error.into() }.into());
+        }
+    }
+    for (entity, own, body) in &bodies {
+        let Some(water) = cables.set.water_mut() else { return };
+        // one that was restored is in it as it was
+        let known = water.immersed(body.handle) == Some(&own.0);
+        if !(own.is_changed() || (body.is_changed() || is_new) && !known) {
+            continue;
+        }
+        if let Err(error) = water.insert(&mut physics, body.handle, own.0) {
+            cables.events.push(WaterFailed { entity, error: error.into() }.into());
+        }
+    }
+}
