@@ -50,9 +50,9 @@ fn a_length_by_tension_or_sag_is_that_of_the_catenary() {
         cable.equilibrium().unwrap();
         assert!((cable.sample(0.5 * cable.length()).unwrap().position.y + sag).abs() < 1e-5 * sag);
     }
-    // a rope of several times its span: the same at a sixth of the span
-    for sag in [6.0, 40.0] {
-        let cable = line([6.0, 0.0], 30).sag(sag).build().unwrap();
+    // ropes of several times their span, which bend within a metre
+    for sag in [6.0, 12.0] {
+        let cable = line([6.0, 0.0], 80).sag(sag).build().unwrap();
         let (_, length) = catenary(6.0, weight, 2e6, |_, found| sag - found);
         println!("sag {sag} of 6: {} for {length}", cable.length());
         assert!((cable.length() / length - 1.0).abs() < 2e-3, "sag {sag}: {} for {length}", cable.length());

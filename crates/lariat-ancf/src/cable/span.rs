@@ -15,8 +15,8 @@
 //!
 //! # Validity
 //!
-//! Tension falls and sag grows with the length. A cable without weight has no sag; the tension of a
-//! heavy one has a least value over its length, and a smaller one is refused.
+//! Tension falls and sag grows with the length. A cable without weight has no sag; a tension that a
+//! cable of twice the drawn length has not fallen to is refused, as is any below the least one.
 //!
 //! # References
 //!
@@ -76,20 +76,12 @@ impl Span {
         let (mut step, mut high) = (SPAN_WITHIN.sqrt(), low);
         loop {
             let length = if longer { drawn * (1.0 + step) } else { drawn / (1.0 + step) };
-            let ends = match self {
-                _ if !longer => step > 1.0,
-                // whatever hangs from both ends hangs by half of its slack
-                Span::Sag(sag) => length > 2.0 * (drawn + 2.0 * sag),
-                Span::Tension(_) => false,
-            };
-            if ends {
+            // whatever hangs from both ends hangs by half of its slack
+            let last = if let Span::Sag(sag) = self { 4.0 * sag.max(drawn) / drawn } else { 1.0 };
+            if step > if longer { last } else { 1.0 } {
                 unreached()?;
             }
             let next = [length, missed(length)?];
-            // beyond the length of the least tension it grows with the weight
-            if longer && !self.is_sag() && next[1] <= high[1] {
-                unreached()?;
-            }
             (low, high) = if longer { (high, next) } else { (next, low) };
             if (next[1] >= 0.0) == longer {
                 break;

@@ -22,11 +22,12 @@
 //! the step resolves that, else 0. What G is too soft to give, or where u > 0 to take but for 1
 //! cm/s, is added to R and solved for again (augmented Lagrangian), until it changes by 1e-3. T is
 //! the tangent of friction, S the step matrix without contacts; the sum is the matrix that the last
-//! iteration factored. So an impulse spreads through cable and bodies as those of the step did.
-//! Normals and arms are those of the matrix, of the mean of the step, so that an impulse is on the
-//! line on which the matrix sees it. Where a contact slips, the friction of the impulse that is
-//! taken back goes with it, with l of a first solve. `G/m` is `b (h omega)^2` with the frequency
-//! omega of the contact: the velocity of contacts that a step does not resolve is taken at once.
+//! iteration factored. So an impulse spreads through cable and bodies as those of the step did. On
+//! bodies, normals and levers are those of the matrix, at three quarters of the step: with others
+//! the impulse, a difference of large products, would spin a ball that has no friction. Where a
+//! contact slips, the friction of the impulse that is taken back goes with it, with l of a first
+//! solve. `G/m` is `b (h omega)^2` with the frequency omega of the contact: the velocity of
+//! contacts that a step does not resolve is taken at once.
 //!
 //! The energy of motion and of the store change by
 //!
@@ -176,10 +177,11 @@ impl ContactStep {
                 let (element, step, now) = (point.key.0 as usize, &self.obstacles[point.obstacle], &point.now);
                 let linear = &point.linear;
                 let of_obstacle = |when: When| match step.body {
-                    Some(index) => body(when, index, &linear.arm),
+                    Some(index) => body(when, index, &linear.lever),
                     None => step.velocity_at(&(now.arm + 0.5 * now.slip)),
                 };
-                let (shape, normal, obstacle) = (&point.shape, linear.tangents.across, of_obstacle(When::End));
+                let normal = if step.body.is_some() { linear.tangents.across } else { now.normal };
+                let (shape, obstacle) = (&point.shape, of_obstacle(When::End));
                 let came = if point.restitution > 0.0 {
                     let before = velocity(When::Begin, element, shape) - of_obstacle(When::Begin);
                     (-normal.dot(&before)).max(0.0)
@@ -204,7 +206,7 @@ impl ContactStep {
         for point in self.points.iter().filter(|point| point.impact.acts()) {
             add_force(rhs, point.key.0 as usize, &point.shape, &point.impact.row);
             if let Some(body) = self.obstacles[point.obstacle].body {
-                let angular = point.linear.arm.cross(&point.impact.row);
+                let angular = point.linear.lever.cross(&point.impact.row);
                 for x in 0..3 {
                     rows[6 * body + x] -= point.impact.row[x];
                     rows[6 * body + 3 + x] -= angular[x];
@@ -224,7 +226,7 @@ impl ContactStep {
         let mut changed = false;
         for point in self.points.iter_mut().filter(|point| point.impact.acts()) {
             let body = self.obstacles[point.obstacle].body;
-            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &point.linear.arm));
+            let of_obstacle = body.map_or_else(Vector3::zeros, |index| of_body(index, &point.linear.lever));
             let taken = taken(point.key.0 as usize, &point.shape) - of_obstacle;
             changed |= point.settle_impact(&taken, self.h, first);
         }

@@ -28,6 +28,7 @@ impl ContactPoint {
         let row_slip = if apart { obstacle.slip(&row.start, &changes(element, &row.shape)) } else { at.slip };
         let Evaluation { force, slip, arm, normal, normal_force, .. } = at;
         let Evaluation { pressure, slope, depth, slides, .. } = at;
+        let lever = obstacle.lever(&self.start, &changes(element, &self.shape));
         self.linear = Linear {
             force,
             tangents,
@@ -36,6 +37,7 @@ impl ContactPoint {
             slip,
             row_slip,
             arm,
+            lever,
             normal,
             normal_force,
             pressure,

@@ -160,6 +160,11 @@ impl ObstacleStep {
         x - self.centre[1] + 0.5 * (change - self.shift)
     }
 
+    /// Returns the same place at three quarters of the step.
+    pub fn lever(&self, x: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
+        x - self.centre[1] + 0.75 * (change - self.shift)
+    }
+
     /// Returns its prescribed velocity in m/s at the end of the step, at an arm from the material
     /// point c.
     pub fn velocity_at(&self, arm: &Vector3<f64>) -> Vector3<f64> {

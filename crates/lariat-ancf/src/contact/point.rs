@@ -240,10 +240,8 @@ impl ContactPoint {
         }
         let normal = self.between.map_or(gap.normal, |between| obstacle.end.rotation * between.normal);
         if let Some(tangents) = &mut tangents {
-            // symmetric; along the mean normal, on whose line the obstacle takes the force: with
-            // the normal of the end impacts, which are large products of this, would spin a ball
-            // without friction
-            let row = gap.mean.try_normalize(0.0).unwrap_or(normal);
+            // symmetric, of the derivative between the mean normal and the one of the end
+            let row = 0.5 * (gap.mean + normal);
             (tangents.normal, tangents.across) = (row * row.transpose() * (self.weight * slope), row);
         }
         let normal_force = self.weight * pressure;

@@ -158,7 +158,7 @@ impl ContactStep {
             for (tangent, shape) in parts.into_iter().filter(|(tangent, _)| *tangent != Matrix3::zeros()) {
                 let tangent = tangent * (b * h * h);
                 if let Some(body) = self.obstacles[point.obstacle].body {
-                    self.borders.add(body, element, shape, &tangent, &linear.arm);
+                    self.borders.add(body, element, shape, &tangent, &linear.lever);
                 }
                 add_tangent(matrix, element, shape, &tangent);
             }

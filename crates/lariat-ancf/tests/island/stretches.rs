@@ -50,11 +50,11 @@ fn ladder(integrator: Integrator) -> Scene {
 fn a_ladder_in_space_keeps_momenta_and_energy() {
     let gradient = Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) };
     let cases = [
-        (Integrator::default(), 1e-9, 1e-7, [0.05, 1e-9]),
-        (gradient, 1e-12, 1e-6, [1.0, 1e-9]),
-        (Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) }, 2e-5, 5e-5, [5e-5; 2]),
+        (Integrator::default(), 1e-9, 1e-7, None),
+        (gradient, 1e-12, 1e-6, None),
+        (Integrator { method: Method::Rkn6, control: StepControl::Stable(0.5) }, 2e-5, 5e-5, Some(5e-5)),
     ];
-    for (integrator, linear, angular, [fall, rise]) in cases {
+    for (integrator, linear, angular, kept) in cases {
         let mut scene = ladder(integrator);
         scene.run(1.0 / 60.0, 1);
         let ((p0, l0), e0) = (scene.momentum(), scene.energy());
@@ -63,7 +63,8 @@ fn a_ladder_in_space_keeps_momenta_and_energy() {
         let [p, l, e] = [(p - p0).norm() / l0.norm(), (l - l0).norm() / l0.norm(), (e - e0) / e0];
         println!("{integrator:?}: {p:.1e} {l:.1e} {e:.1e}, gap {:.1e}", scene.gap());
         assert!(scene.gap() < 1e-12, "gap {:.1e}", scene.gap());
-        assert!(p < linear && l < angular && -fall < e && e < rise, "{integrator:?}: {p:.1e} {l:.1e} {e:.1e}");
+        let energy = kept.map_or(e < 1e-9, |kept| e.abs() < kept);
+        assert!(p < linear && l < angular && energy, "{integrator:?}: {p:.1e} {l:.1e} {e:.1e}");
     }
 }
 

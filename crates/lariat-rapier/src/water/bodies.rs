@@ -21,6 +21,9 @@ pub struct BodiesInWater {
     members: Vec<Member>,
     /// In s.
     time: f64,
+    /// Whether the water was changed, which wakes its bodies.
+    #[serde(default)]
+    changed: bool,
 }
 
 impl BodiesInWater {
@@ -30,7 +33,7 @@ impl BodiesInWater {
     /// [`Error::Cable`] for numbers out of range.
     pub fn new(water: Water) -> Result<Self, Error> {
         water.check()?;
-        Ok(BodiesInWater { water, members: Vec::new(), time: 0.0 })
+        Ok(BodiesInWater { water, members: Vec::new(), time: 0.0, changed: false })
     }
 
     /// Returns the water.
@@ -38,12 +41,13 @@ impl BodiesInWater {
         &self.water
     }
 
-    /// Changes the water for the coming steps; bodies keep their added mass.
+    /// Changes the water for the coming steps; bodies wake up, and keep their added mass.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     pub fn set_water(&mut self, water: Water) -> Result<(), Error> {
         water.check()?;
+        self.changed |= self.water != water;
         self.water = water;
         Ok(())
     }
@@ -160,7 +164,8 @@ impl BodiesInWater {
             return;
         }
         let gravity = vector(world.gravity);
-        let BodiesInWater { water, members, time } = self;
+        let BodiesInWater { water, members, time, changed } = self;
+        let changed = core::mem::take(changed);
         let sea = water.flow.surface.as_ref().map(|surface| surface.sea());
         let moves = water.wave().is_some() || !water.flow.history.is_empty();
         // Rapier's substeps move a body further by a constant force than the force would
@@ -170,6 +175,9 @@ impl BodiesInWater {
             if !body.is_dynamic() || !body.is_enabled() {
                 member.forget();
                 continue;
+            }
+            if changed {
+                body.wake_up(true);
             }
             if body.is_sleeping() && !moves {
                 continue;

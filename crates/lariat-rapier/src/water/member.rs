@@ -117,9 +117,9 @@ impl Member {
         if self.dry { 0.0 } else { self.added }
     }
 
-    /// Finds whether all of the body is in air over a step. Returns the mass in kg to add to it if that
-    /// has changed, and its velocity (m/s) then: the water that it takes along has its momentum, and
-    /// keeps that when it is left behind.
+    /// Finds whether all of the body is in air over a step. Returns the mass in kg to add to it if
+    /// that has changed, and its velocity (m/s) then: the water that it takes along has its
+    /// momentum, and keeps that when it is left behind.
     pub(super) fn meet(&mut self, body: &RigidBody, input: &Input<'_>) -> Option<(f64, Vector3<f64>)> {
         if self.added == 0.0 || input.sea.is_none() {
             return None;

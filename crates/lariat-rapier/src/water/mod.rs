@@ -70,8 +70,8 @@
 //!
 //! # References
 //!
-//! Archimedes; von Karman 1929, NACA TN 321 (momentum of entry); Morison et al. 1950; Faltinsen 1990, ch. 3 (long waves: Froude and Krylov with added
-//! mass).
+//! Archimedes; von Karman 1929, NACA TN 321 (momentum of entry); Morison et al. 1950; Faltinsen
+//! 1990, ch. 3 (long waves: Froude and Krylov with added mass).
 //!
 //! # Alternatives considered
 //!

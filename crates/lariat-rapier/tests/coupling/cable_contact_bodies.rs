@@ -216,3 +216,28 @@ fn a_rope_presses_a_light_cube_on_the_ground() {
         assert!(off[0] < 0.015 && off[1] < 0.03, "{case}");
     }
 }
+
+/// A ball that slides along a rope without friction does not begin to spin.
+///
+/// *Source.* All forces on a ball go through its centre.
+#[test]
+fn a_ball_that_slides_without_friction_does_not_spin() {
+    for (elements, speed, rate) in [(40, 1.5, 60.0), (30, 1.0, 240.0), (80, 2.0, 120.0)] {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / rate;
+        let at = RigidBodyBuilder::dynamic().translation(RVector::new(-1.2, 0.105, 0.0));
+        let shape = ColliderBuilder::ball(0.1).mass(0.8).friction(0.0);
+        let (ball, _) = world.insert(at.linvel(RVector::new(speed, 0.0, 0.0)), shape);
+        let mut cables = CableSet::new();
+        let taut = rope(Vector3::new(-2.0, 0.0, 0.0), Vector3::new(2.0, 0.0, 0.0), elements).length(3.96);
+        touching(&mut cables, taut.fix(At::Start).fix(At::End), 0.0);
+        let mut touched = 0;
+        for _ in 0..(0.5 * rate) as usize {
+            cables.step(&mut world).unwrap();
+            touched += usize::from(deepest(&cables) > 0.0);
+        }
+        let spin = vector(world.bodies[ball].angvel()).norm();
+        println!("{elements} {speed} {rate}: {spin:e} rad/s, touched in {touched} steps");
+        assert!(touched > 3 && spin < 1e-3, "{elements} {speed} {rate}: {spin} rad/s, {touched}");
+    }
+}

@@ -178,7 +178,7 @@ impl Scene {
                 (above, whole) = (above + share * length, whole + length);
             }
             let share = above / whole;
-            let area = buoyancy.area.or_else(|| cable.section.outer_area)?;
+            let area = buoyancy.area.or(cable.section.outer_area)?;
             let added_kg = buoyancy.added_mass * buoyancy.fluid_density * area * cable.length;
             (share > IN_AIR).then(|| Warning::AddedMassInAir { cable: cable.name.clone(), share, added_kg })
         })

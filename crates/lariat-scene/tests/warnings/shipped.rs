@@ -17,6 +17,9 @@ const MEANT: [(&str, &[&str]); 8] = [
     ("hard/payload_midpoint_1", &["energy_made"]),
 ];
 
+/// What a chaotic scene tells by the last bit of its motion: friction of the heap lags in none or in some 14 of 1200 steps.
+const MAY: (&str, &str) = ("contact/heap", "friction_lags");
+
 /// Scenes that take longer than all others together: a bridge of 8 cables, and a rope that must
 /// rest for a minute.
 const SLOW: [&str; 2] = ["scenes/bridge", "contact/stick"];
@@ -42,7 +45,8 @@ fn shipped_scenes_tell_what_they_are_there_to_show() {
                 let own = all.iter().find(|w| line.ends_with(w["text"].as_str().unwrap())).unwrap();
                 own["kind"].as_str().unwrap().to_string()
             };
-            let told: Vec<String> = summary.told.iter().map(kind).collect();
+            let may = |kind: &String| (name.as_str(), kind.as_str()) == MAY;
+            let told: Vec<String> = summary.told.iter().map(kind).filter(|kind| !may(kind)).collect();
             if told != expected {
                 wrong.push(format!("{name}: {told:?}"));
             }

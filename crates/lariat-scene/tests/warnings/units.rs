@@ -172,8 +172,8 @@ fn slack_elements_and_anchors_in_other_measures_are_told() {
 fn far_bodies_fast_spins_and_added_mass_in_air_are_told() {
     let text = |x: f64, spin: f64, height: f64, added: f64| {
         format!(
-            "duration = 0.01\ndt = 0.05\n[water]\nlevel = 0.0\n[[body]]\nname = \"load\"\nshape = {{ ball = 0.1 }}\nmass = 5.0\nposition = [{:?}, 0.0, 0.0]\n\
-             [[body]]\nname = \"wheel\"\nkind = \"kinematic\"\nposition = [0.0, 9.0, 0.0]\nangular_velocity = [0.0, {spin:?}, 0.0]\n\
+            "duration = 0.01\ndt = 0.05\n[water]\ndensity = 1000.0\nlevel = 0.0\n[[body]]\nname = \"load\"\nshape = {{ ball = 0.1 }}\nmass = 5.0\nposition = [{:?}, 0.0, 0.0]\n\
+             [[body]]\nname = \"wheel\"\nkind = \"kinematic\"\nshape = \"none\"\nposition = [0.0, 9.0, 0.0]\nangular_velocity = [0.0, {spin:?}, 0.0]\n\
              [[cable]]\nname = \"rope\"\npoints = [[{x:?}, {height:?}, 0.0], [{:?}, {height:?}, 0.0]]\n\
              section = {{ round = 0.02 }}\ndensity = 1100.0\nyoungs_modulus = 1e8\nbuoyancy = {{ added_mass = {added:?} }}\n\
              [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\

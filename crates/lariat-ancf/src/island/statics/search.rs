@@ -74,7 +74,7 @@ impl<'a> Search<'a> {
         }
         twists::begin(cables, &layout);
         let twisted = |c: &&mut Cable| c.system.static_torsion.as_ref().is_some_and(|torsion| torsion.count() > 0);
-        let twists = cables.iter().any(|c| twisted(&c)).then(Twists::default);
+        let twists = cables.iter().any(twisted).then(Twists::default);
         let driven = cables.iter().any(|c| c.system.forces.drive()) || !loads.have_potential(bodies);
         let moments = cables.iter().flat_map(|c| &c.model.loads).any(|load| load.moment != Vector3::zeros());
         let has_potential = !driven && !moments;
