@@ -189,7 +189,8 @@ fn changes_by_the_host_take_four_steps() {
         assert_eq!(steps(&mut rope, FRAME), 1);
         rope
     };
-    let changes: [(&str, fn(&mut Cable)); 4] = [
+    type Change = fn(&mut Cable);
+    let changes: [(&str, Change); 4] = [
         ("velocities", |rope| rope.set_rigid_motion(Vector3::new(1.0, 0.0, 0.0), Vector3::zeros()).unwrap()),
         ("gravity", |rope| rope.set_gravity(Vector3::new(1.0, -9.0, 0.0)).unwrap()),
         ("support", |rope| rope.release(At::Start).unwrap()),

@@ -75,7 +75,7 @@ fn a_film_has_what_the_world_had() {
     let bodies = data.0["bodies"].as_array().unwrap();
     let names: Vec<&str> = bodies.iter().map(|body| body["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["hook", "", "", ""]);
-    assert_eq!((&bodies[2]["kind"], &bodies[3]["shape"]["ball"].as_f64().unwrap() > &0.09), (&"fixed".into(), true));
+    assert_eq!((&bodies[2]["kind"], bodies[3]["shape"]["ball"].as_f64().unwrap() > 0.09), (&"fixed".into(), true));
     let (numbers, rope) = (data.frames(), 2 + 7 * 9);
     let [both, one] = [1 + 2 * rope + 4 * 7, 1 + rope + 4 * 7];
     assert_eq!(numbers.len(), 30 * both + 21 * one);

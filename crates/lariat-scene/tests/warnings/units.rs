@@ -187,7 +187,10 @@ fn far_bodies_fast_spins_and_added_mass_in_air_are_told() {
             Warning::FarFromOrigin { .. } => "far",
             Warning::FastSpin { .. } => "spin",
             Warning::AddedMassInAir { share, added_kg, .. } => {
-                assert!(*share == 1.0 && (added_kg / (1e3 * 3.14159265 * 1e-4 * 2.0) - 1.0).abs() < 0.03, "{w}");
+                assert!(
+                    *share == 1.0 && (added_kg / (1e3 * std::f64::consts::PI * 1e-4 * 2.0) - 1.0).abs() < 0.03,
+                    "{w}"
+                );
                 "air"
             }
             _ => "",
