@@ -21,6 +21,10 @@ pub(crate) struct OneLeg {
     pub b: f64,
 }
 
+/// Factors of an estimate of the error on the change of velocity in a step, and on that in the step
+/// before.
+pub(crate) type Factors = fn(&OneLeg, f64, f64) -> [f64; 2];
+
 impl OneLeg {
     pub const fn new(a: f64) -> Self {
         OneLeg { a, b: 0.5 + a }

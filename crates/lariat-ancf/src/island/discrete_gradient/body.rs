@@ -34,13 +34,12 @@
 //! The midpoint rule in the rotation vector of the [other integrators](super::rotation): it keeps
 //! neither energy nor angular momentum.
 
-use super::error::Factors;
 use super::rigid::RigidMotion;
 use crate::contact::{BodyPath, When};
 use crate::integrate::discrete_gradient::sum_of_forces;
 use crate::island::body::{BodyDifferences, RigidBody};
 use crate::model::STANDARD_GRAVITY;
-use crate::one_leg::OneLeg;
+use crate::one_leg::{Factors, OneLeg};
 use crate::scales::LEAST_HEIGHT;
 use crate::scales::integrate::ALPHA;
 use crate::system::angular::{Momenta, Turn};

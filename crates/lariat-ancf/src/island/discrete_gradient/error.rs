@@ -32,11 +32,8 @@
 
 use super::body::BodyStep;
 use super::{IslandStep, StepBuffers};
-use crate::one_leg::OneLeg;
+use crate::one_leg::{Factors, OneLeg};
 use crate::system::{CableStep, project_vector};
-
-/// Factors of a formula on D v and O v.
-pub(super) type Factors = fn(&OneLeg, f64, f64) -> [f64; 2];
 
 impl IslandStep<'_, '_> {
     /// Returns the estimated error of the iterate in m; 0 where it is not known.
