@@ -23,12 +23,13 @@ impl ContactPoint {
         if let Some(glide) = &mut self.glide {
             glide.follow(&changes(element, &glide.slope));
         }
-        let at = self.evaluate(obstacle, &changes(element, &self.shape), self.about, Some(&mut tangents));
+        let change = changes(element, &self.shape);
+        let at = self.evaluate(obstacle, &change, self.about, Some(&mut tangents));
         let apart = self.between.is_some();
         let row_slip = if apart { obstacle.slip(&row.start, &changes(element, &row.shape)) } else { at.slip };
         let Evaluation { force, slip, arm, normal, normal_force, .. } = at;
         let Evaluation { pressure, slope, depth, slides, .. } = at;
-        let lever = obstacle.lever(&self.start, &changes(element, &self.shape));
+        let lever = obstacle.lever(&self.start, &change);
         self.linear = Linear {
             force,
             tangents,

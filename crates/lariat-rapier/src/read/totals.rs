@@ -58,8 +58,7 @@ pub(crate) fn energy(contents: &Contents, world: &PhysicsWorld) -> Result<WorldE
         let scale = f64::from(world.bodies[handle].gravity_scale());
         sum.bodies_kinetic += body.kinetic_energy();
         // added mass has no weight
-        let added =
-            contents.water.as_ref().and_then(|water| water.volume_and_added_mass(handle)).map_or(0.0, |of| of.1);
+        let added = contents.water.as_ref().map_or(0.0, |water| water.added_mass(handle));
         sum.bodies_gravity -= (body.mass - added) * scale * gravity.dot(&body.position);
     }
     Ok(sum)

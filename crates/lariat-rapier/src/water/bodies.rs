@@ -67,6 +67,12 @@ impl BodiesInWater {
         self.members.iter().find(|m| m.body == body).map(|m| &m.immersed)
     }
 
+    /// Returns the added mass in kg that is in the mass of a body now: none of one in air, or in no
+    /// water.
+    pub fn added_mass(&self, body: RigidBodyHandle) -> f64 {
+        self.volume_and_added_mass(body).map_or(0.0, |(_, added)| added)
+    }
+
     /// Returns volume (m^3) and added mass (kg) of a body, which has none while it is in air.
     pub fn volume_and_added_mass(&self, body: RigidBodyHandle) -> Option<(f64, f64)> {
         self.members.iter().find(|m| m.body == body).map(|m| (m.volume(), m.carried()))

@@ -121,12 +121,12 @@ impl Member {
     /// that has changed, and its velocity (m/s) then: the water that it takes along has its
     /// momentum, and keeps that when it is left behind.
     pub(super) fn meet(&mut self, body: &RigidBody, input: &Input<'_>) -> Option<(f64, Vector3<f64>)> {
-        if self.added == 0.0 || input.sea.is_none() {
-            return None;
-        }
+        let sea = input.sea.filter(|_| self.added > 0.0)?;
         let (turn, velocity) = (rotation(*body.rotation()), vector(body.linvel()));
         let centre = vector(body.translation()) + turn * self.hull.centre();
-        let dry_at = |centre: &Vector3<f64>| self.wet(input, centre, &turn).volume <= 0.0;
+        // what is below by its centroid is wet, without a look at its shape
+        let is_above = |centre: &Vector3<f64>| sea.depth(input.time, centre) < 0.0;
+        let dry_at = |centre: &Vector3<f64>| is_above(centre) && self.wet(input, centre, &turn).volume <= 0.0;
         let dry = dry_at(&centre) && dry_at(&(centre + velocity * input.h));
         if dry == self.dry {
             return None;
@@ -135,8 +135,7 @@ impl Member {
         let (change, after) = if dry {
             (-self.added, velocity)
         } else {
-            let wave = input.sea.map_or(Vector3::zeros(), |sea| sea.at(input.time, &centre).velocity);
-            let water = input.water.current(input.time, &centre) + wave;
+            let water = input.water.current(input.time, &centre) + sea.at(input.time, &centre).velocity;
             (self.added, (velocity * mass + water * self.added) / (mass + self.added))
         };
         self.work += 0.5 * ((mass + change) * after.norm_squared() - mass * velocity.norm_squared());

@@ -370,8 +370,7 @@ impl Physics {
                 continue;
             }
             let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
-            let added =
-                self.cables.water().and_then(|water| water.volume_and_added_mass(handle)).map_or(0.0, |of| of.1);
+            let added = self.cables.water().map_or(0.0, |water| water.added_mass(handle));
             kinetic += rigid.kinetic_energy();
             gravity -= (rigid.mass - added) * scene.gravity.dot(&rigid.position);
         }
