@@ -168,11 +168,9 @@ pub(crate) struct Unseen {
 /// break, and no snap at the end of its flight, strains it by more, until others do work on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Recoil {
-    /// Strain energy in J.
+    /// Strain energy in J that it can still give: what was dissipated does not come back.
     pub energy: f64,
-    /// Time in s of the break.
-    pub from: f64,
-    /// Time in s by which waves and flight are over.
+    /// Time in s by which waves and flight are over; of a part that nothing holds or loads, never.
     pub until: f64,
 }
 
@@ -186,6 +184,13 @@ impl LoadRecord {
     /// (m).
     pub fn begin(&mut self, origin: f64) {
         self.origin = origin;
+    }
+
+    /// Notes the energy in J by which the cable can recoil at most from now on.
+    pub fn lower_recoil(&mut self, energy: f64) {
+        if let Some(recoil) = &mut self.recoil {
+            recoil.energy = recoil.energy.min(energy);
+        }
     }
 
     /// Adds a reading; that of a [recoil](Recoil) is compared with no limit.

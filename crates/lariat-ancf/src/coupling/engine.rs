@@ -7,7 +7,7 @@ use crate::effect::Effects;
 use crate::error::Error;
 use crate::integrate::{Fidelity, Integrator};
 use crate::rule::Rule;
-use crate::strength::Load;
+use crate::strength::{Break, Load};
 use crate::warning::{IslandChange, Warning};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -173,6 +173,20 @@ pub trait Coupling {
     /// Returns the time in s at the end of the integration step in which the load first exceeded
     /// its limit since the cable was compared with it; `None` if it did not.
     fn overloaded_at(&self) -> Option<f64>;
+
+    /// Cuts the cable at a point as [`break_at`](Cable::break_at) does where both parts go on
+    /// carrying, as at a wheel: they do not recoil.
+    ///
+    /// # Errors
+    /// As [`cut`](Cable::cut).
+    fn divide_at(&mut self, at: At) -> Result<(Cable, Break), Error>;
+
+    /// Returns whether the rate of a reel is an unknown, which only `discrete-gradient` solves for.
+    fn has_reel_law(&self) -> bool;
+
+    /// Lets the stock of a reel ride with a body at its eye, if that is at this node: energy and
+    /// momentum have it from now on, as from a step on such a body.
+    fn ride(&mut self, node: usize);
 
     /// Returns the elastic energy in J that [inserted nodes](Cable::insert_node) have added so far,
     /// those of [cuts](Cable::cut) included: it belongs in an energy balance over such an edit.
@@ -340,6 +354,20 @@ impl Coupling for Cable {
 
     fn overloaded_at(&self) -> Option<f64> {
         self.snapshot.load.exceeded()
+    }
+
+    fn divide_at(&mut self, at: At) -> Result<(Cable, Break), Error> {
+        Cable::divide_at(self, at)
+    }
+
+    fn has_reel_law(&self) -> bool {
+        self.model.reels.have_laws()
+    }
+
+    fn ride(&mut self, node: usize) {
+        if self.has_reel() {
+            self.add_riding_stock(node);
+        }
     }
 
     fn inserted_energy(&self) -> f64 {

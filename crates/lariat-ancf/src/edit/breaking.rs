@@ -19,7 +19,12 @@
 //! A part recoils with the strain energy that it had at the break: the wave of the break, of the
 //! speed sqrt(EA/rho A), runs to and fro in it, and overshoots on a mesh; the part flies past the
 //! end that is held, and snaps taut on the other side. As long as that takes at the speed of this
-//! energy, a load breaks it only if its strain energy is larger, because others do work on it.
+//! energy, a load breaks it only if its strain energy is larger than what is left of it: the least
+//! sum, since the break, of strain energy, kinetic energy about the centre of mass, and kinetic
+//! energy of the centre as seen from any node. More comes from others that do work on it. So it is
+//! with parts of a cable that was cut. A part that nothing holds and nothing is tied to has no
+//! tension but its recoil, however long. What else exceeds the limit at the time of a break breaks
+//! by its own load once its part has recoiled: a rope breaks at one place.
 //!
 //! Breaking at a node
 //! changes neither shape nor motion, so mass, momenta and energy of the parts are those of the
@@ -128,7 +133,7 @@ impl Cable {
         Ok([(rest, how)].into_iter().chain(before).chain(behind).collect())
     }
 
-    /// Lets a part of a cable that broke recoil: it breaks no more by that.
+    /// Lets a part of a cable that broke or was cut recoil: it breaks no more by that.
     fn recoil(&mut self) {
         let energy = self.reading().strain_energy();
         let of = |f: &dyn Fn(&Element) -> f64| self.elements().iter().map(f).sum::<f64>();
@@ -136,14 +141,14 @@ impl Cable {
         let mass = of(&|e| e.length * self.model.inertia(e));
         // one without strain does not fly
         let flight = if energy > 0.0 { self.length() / (2.0 * energy / mass).sqrt() } else { 0.0 };
-        let from = self.time();
-        let until = from + WAVE_PASSES * wave + WAYS_OF_RECOIL * flight;
-        self.snapshot.load = LoadRecord::of_part(Recoil { energy, from, until });
+        let is_loose = self.model.supports.is_empty() && self.model.loads.is_empty() && !self.has_reel();
+        let until = if is_loose { f64::MAX } else { self.time() + WAVE_PASSES * wave + WAYS_OF_RECOIL * flight };
+        self.snapshot.load = LoadRecord::of_part(Recoil { energy, until });
     }
 
     /// Returns whether the present load is a recoil of a break before.
     fn is_recoil(&self) -> bool {
-        let recoil = self.snapshot.load.recoil(self.time()).filter(|recoil| self.time() > recoil.from);
+        let recoil = self.snapshot.load.recoil(self.time());
         recoil.is_some_and(|recoil| self.reading().strain_energy() <= recoil.energy)
     }
 
@@ -168,8 +173,17 @@ impl Cable {
     /// # Errors
     /// As [`cut`](Self::cut).
     pub fn break_at(&mut self, at: impl Into<At>) -> Result<(Cable, Break), Error> {
-        let s = self.arc_length(at)?;
-        self.part(s, |cut| cut)
+        let at = At::ArcLength(self.arc_length(at)?);
+        let (mut rest, how) = self.divide_at(at)?;
+        if self.strength().is_limited() {
+            [self, &mut rest].into_iter().for_each(Cable::recoil);
+        }
+        Ok((rest, how))
+    }
+
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn divide_at(&mut self, at: At) -> Result<(Cable, Break), Error> {
+        self.part(self.arc_length(at)?, |cut| cut)
     }
 
     fn part(&mut self, arc_length: f64, told: impl FnOnce(Break) -> Break) -> Result<(Cable, Break), Error> {

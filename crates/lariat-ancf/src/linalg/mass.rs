@@ -59,6 +59,31 @@ impl MassMatrix {
         self.diag.iter().map(|diag| diag[0]).sum::<f64>() + 2.0 * self.lower.iter().map(|lower| lower[0]).sum::<f64>()
     }
 
+    /// Returns x M x; `x` has length 6 * nodes.
+    pub fn quadratic(&self, x: &[f64]) -> f64 {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let (nodes, _) = x.as_chunks::<6>();
+        let own = self.diag.iter().zip(nodes).map(|([rr, rt, tt], x)| {
+            let (r, t) = x.split_at(3);
+            rr * dot(r, r) + 2.0 * rt * dot(r, t) + tt * dot(t, t)
+        });
+        let between = self.lower.iter().zip(nodes.windows(2)).map(|([rr, rt, tr, tt], pair)| {
+            let ((r0, t0), (r, t)) = (pair[0].split_at(3), pair[1].split_at(3));
+            2.0 * (rr * dot(r, r0) + rt * dot(r, t0) + tr * dot(t, r0) + tt * dot(t, t0))
+        });
+        own.sum::<f64>() + between.sum::<f64>()
+    }
+
+    /// Returns the sum of the rows of positions of M x, the momentum of velocities x.
+    pub fn momentum(&self, x: &[f64]) -> [f64; 3] {
+        let (nodes, _) = x.as_chunks::<6>();
+        let sum = |r: f64, t: f64, x: &[f64; 6]| [0, 1, 2].map(|i| r * x[i] + t * x[i + 3]);
+        let own = self.diag.iter().zip(nodes).map(|([rr, rt, _], x)| sum(*rr, *rt, x));
+        let below = self.lower.iter().zip(nodes).map(|([rr, rt, ..], x)| sum(*rr, *rt, x));
+        let above = self.lower.iter().zip(&nodes[1..]).map(|([rr, _, tr, _], x)| sum(*rr, *tr, x));
+        own.chain(below).chain(above).fold([0.0; 3], |a, b| [0, 1, 2].map(|i| a[i] + b[i]))
+    }
+
     /// Computes y = M x as [`multiply`](Self::multiply) does, with the instructions of `level`.
     ///
     /// # Panics

@@ -46,6 +46,11 @@ pub(crate) const PASSING: f64 = 0.15;
 /// Largest number of parts. Setting: rates beyond are refused by name.
 pub(crate) const MOST_PARTS: f64 = 1e5;
 
+/// Largest number of parts of a host step for what the last acceleration of an unknown rate would
+/// make of it. Derived: that of the shortest steps of error control; after a break it is that of a
+/// wave over a much shorter step.
+pub(crate) const MOST_PARTS_OF_WAVE: f64 = 64.0;
+
 /// Rate in m/s below which a reel stands. Derived: in a century it feeds 3 mm.
 pub(crate) const STANDING_RATE: f64 = 1e-12;
 

@@ -195,3 +195,7 @@ pub(crate) const MOST_PASSED: f64 = 0.1;
 /// Difference of the pulls at a sheave, as a multiple of the largest residual of an equilibrium.
 /// Unknown: each pull is as good as that.
 pub(crate) const PULLS: f64 = 10.0;
+
+/// Levers of bodies below this share of the longest cable are none. Derived: single precision, in
+/// which Rapier has the positions of bodies and their anchors.
+pub(crate) const LEVER_ROUNDING: f64 = f32::EPSILON as f64;

@@ -33,6 +33,7 @@ use crate::element::variable_length::Extent;
 use crate::model::Model;
 use crate::state::SegmentTwist;
 use crate::strength::{Load, Strength};
+use nalgebra::Vector3;
 
 /// A cable in a state, to be read.
 #[derive(Clone, Copy)]
@@ -158,6 +159,19 @@ impl<'a> Reading<'a> {
         axial + bending
     }
 
+    /// Returns the energy in J by which the cable can recoil at most: its strain energy, the kinetic
+    /// energy of its motion about its centre of mass, and that of the centre as seen from the node
+    /// from which it moves fastest, as from one that is held.
+    pub fn recoil_energy(&self) -> f64 {
+        let mass = self.system.mass.matrix();
+        let (total, (nodes, _)) = (mass.total(), self.v.as_chunks::<6>());
+        let centre = Vector3::from(mass.momentum(self.v)) / total;
+        let kinetic = 0.5 * mass.quadratic(self.v) - 0.5 * total * centre.norm_squared();
+        let from = |node: &[f64; 6]| (centre - Vector3::new(node[0], node[1], node[2])).norm_squared();
+        let fastest = nodes.iter().map(from).fold(0.0, f64::max);
+        self.strain_energy() + kinetic.max(0.0) + 0.5 * total * fastest
+    }
+
     /// Returns the load that is the largest share of its limit, read at both ends of every element.
     pub fn largest_load(&self, strength: Strength) -> Load {
         let elements = &self.model.elements;
@@ -203,8 +217,12 @@ impl Equations<'_> {
         self.diagnostics.load_readings += self.model.elements.len() as u64;
         let reading = Reading { model: self.model, system: self.system, q, v, time, twists };
         let load = reading.largest_load(strength);
-        let recoil = self.system.load.recoil(time).filter(|_| load.share > 1.0);
-        let is_recoil = recoil.is_some_and(|recoil| reading.strain_energy() <= recoil.energy);
+        let recoil = self.system.load.recoil(time).map(|recoil| (recoil, reading.recoil_energy()));
+        let is_recoil = load.share > 1.0
+            && recoil.is_some_and(|(recoil, energy)| reading.strain_energy() <= recoil.energy.min(energy));
+        if let Some((_, energy)) = recoil {
+            self.system.load.lower_recoil(energy);
+        }
         self.system.load.note(load, is_recoil);
     }
 }

@@ -71,6 +71,9 @@ pub(crate) struct Slot {
     /// By how much what holds it was rounded in the last host step, in m.
     #[serde(skip)]
     pub rounding: f64,
+    /// Whether its island took its last step by the discrete gradient.
+    #[serde(skip)]
+    pub by_law: Option<bool>,
 }
 
 impl Slot {
@@ -142,6 +145,7 @@ impl Contents {
             parted: false,
             rounding: 0.0,
             cable,
+            by_law: None,
         };
         let key = self.free_key(&slot);
         slot.cable.set_contact_key(key);

@@ -44,6 +44,9 @@ pub(crate) fn attach(
             Some(turn.inverse() * slope.normalize())
         }
     };
+    if rigid.is_dynamic() {
+        attached.ride(node);
+    }
     let index = contents.attachments.push(Attachment {
         cable,
         node,

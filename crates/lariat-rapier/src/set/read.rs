@@ -5,12 +5,13 @@ use crate::body::unsettled::Unsettled;
 use crate::contents::gaps::OpenGap;
 use crate::error::{Error, Failure};
 use crate::events::Event;
-use crate::handle::AttachmentHandle;
+use crate::handle::{AttachmentHandle, CableHandle};
 #[cfg(feature = "debug-render")]
 use crate::read::draw::{self, DrawStyle};
 use crate::read::totals::{self, WorldEnergy};
 use crate::read::warnings::{self, Warning};
 use lariat_ancf::Momentum;
+use lariat_ancf::integrate::OneStep;
 #[cfg(feature = "debug-render")]
 use rapier::pipeline::DebugRenderBackend;
 use rapier::pipeline::PhysicsWorld;
@@ -31,6 +32,17 @@ impl CableSet {
     /// host step.
     pub fn failures(&self) -> &[Failure] {
         &self.stepper.failures
+    }
+
+    /// Returns whether the island of a cable took its last step by the discrete gradient, or the
+    /// cable is to do so if it was not stepped: an island has one integrator, which need not be
+    /// that of each of its cables.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`].
+    pub fn steps_by_discrete_gradient(&self, cable: CableHandle) -> Result<bool, Error> {
+        let slot = self.contents.cables.get(cable.0 as usize).ok_or(Error::NoCable(cable))?;
+        Ok(slot.by_law.unwrap_or_else(|| slot.cable.integrator().method.uses_discrete_gradients()))
     }
 
     /// Returns the linear momentum (kg m/s) and the angular momentum about the origin (kg m^2/s) of

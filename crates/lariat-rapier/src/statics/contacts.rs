@@ -6,7 +6,7 @@ use crate::scales::statics::TOUCH;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{BoundingVolume, Collider};
 use rapier::math::{Pose, Real};
-use rapier::parry::query::contact;
+use rapier::parry::query::{Contact, contact};
 use rapier::pipeline::PhysicsWorld;
 
 /// Rejects moved bodies that touch another, where they were or where they are to be.
@@ -34,8 +34,10 @@ pub(super) fn check_contacts(world: &PhysicsWorld, poses: &[(RigidBodyHandle, Po
             for (at, to) in [(before(a), before(b)), (after(a), after(b))] {
                 let near = a.shape().compute_aabb(&at).loosened(TOUCH as Real);
                 // pairs of shapes that parry does not compare cannot collide in Rapier either
+                let touch = |found: Contact| found.dist <= TOUCH as Real; // parry gives one of a half-space at any distance
                 if near.intersects(&b.shape().compute_aabb(&to))
-                    && matches!(contact(&at, a.shape(), &to, b.shape(), TOUCH as Real), Ok(Some(_)))
+                    && contact(&at, a.shape(), &to, b.shape(), TOUCH as Real)
+                        .is_ok_and(|found| found.is_some_and(touch))
                 {
                     return Err(Error::ContactInStatics { body: handle, other: b.parent() });
                 }

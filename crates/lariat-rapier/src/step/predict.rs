@@ -40,7 +40,7 @@ use ::nalgebra::Vector6;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::OneStep;
 use lariat_ancf::island::{PinConstraint, RigidBody};
-use lariat_ancf::{Integrator, StepControl};
+use lariat_ancf::{Cable, Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
 /// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over
@@ -85,7 +85,12 @@ pub(crate) fn prepare(
             integrator = share_of(integrator, prediction.parts);
         }
     }
-    contents.for_cables(&island.cables, |_, cable| cable.set_least_damping(least));
+    let by_law = Some(integrator.method.uses_discrete_gradients());
+    for &cable in &island.cables {
+        let Some(slot) = contents.cables.get_mut(cable) else { continue };
+        slot.cable.set_least_damping(least);
+        slot.by_law = by_law;
+    }
     prediction.integrator = Some(integrator);
     energy::begin(contents, island, prediction);
     Ok(())
@@ -231,13 +236,14 @@ fn cable_load(contents: &Contents, island: &Island, member: usize, body: &RigidB
 
 /// Returns the integrator of an island: that of its cables if they agree, else the one with the
 /// tightest tolerance, or with the shortest steps; where anything asks for the discrete gradient
-/// (contact, sheaves, drums), of those that are one.
+/// (contact, torsion, clutches, sheaves, drums), of those that are one.
 fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> Integrator {
     let slots = || island.cables.iter().filter_map(|&c| contents.cables.get(c));
     let wheels = !(island.sheaves.is_empty() && island.drums.is_empty());
     let by_gradient = |i: &Integrator| i.method.uses_discrete_gradients();
     let can = slots().any(|slot| by_gradient(&slot.cable.integrator()));
-    let only = can && (wheels || slots().any(|slot| slot.cable.effects().contact.is_some()));
+    let needs = |cable: &Cable| cable.effects().need_discrete_gradient() || cable.has_reel_law();
+    let only = can && (wheels || slots().any(|slot| needs(&slot.cable)));
     let all = || slots().map(|slot| slot.cable.integrator()).filter(|i| !only || by_gradient(i));
     let first = all().next().unwrap_or_default();
     if all().all(|i| i == first) {

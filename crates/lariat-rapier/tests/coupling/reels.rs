@@ -177,3 +177,39 @@ fn a_winch_on_a_free_body_draws_in_another() {
         assert!(f64::from(gap) < reel.length_out + 0.6, "{gap} m, {reel:?}");
     }
 }
+
+/// The stock of a winch on a free body counts from the beginning: momentum, angular momentum and kinetic energy are those after the
+/// first step.
+///
+/// *Source.* Conservation, without gravity; the mass of the stock by hand.
+#[test]
+fn stock_on_a_free_body_has_momentum_before_the_first_step() {
+    for (stock, rate) in [(9.0, 0.0), (20.0, -0.4), (6.0, 0.3)] {
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::ZERO;
+        let (tug, barge) =
+            (add_cube(&mut world, 20.0, 0.2, [0.2, 0.0, 0.0]), add_cube(&mut world, 50.0, 0.2, [-3.2, 0.0, 0.0]));
+        for body in [tug, barge] {
+            world.bodies[body].set_linvel(Vector::new(0.0, 1.5, -0.5), true);
+        }
+        let mut set = CableSet::new();
+        let velocity = [0.0, 1.5, -0.5];
+        let mut rope =
+            cable([-3.0, 0.0, 0.0], [0.0; 3], section()).gravity([0.0; 3]).velocity(velocity).build().unwrap();
+        let mass = rope.elements()[0].section.mass_per_length;
+        let reel = Reel { stock: Some(stock), acceleration: 0.5, ..Reel::with_rate(rate) };
+        rope.add_reel(At::End, reel).unwrap();
+        let rope = set.insert(rope);
+        set.attach(&world, rope, At::Start, barge, Vector::new(0.2, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        set.attach(&world, rope, At::End, tug, Vector::new(-0.2, 0.0, 0.0), AttachmentKind::Ball).unwrap();
+        let before = set.momentum(&world).unwrap();
+        let by_hand = (70.0 + mass * stock) * 2.5f64.sqrt();
+        assert!((before.linear.norm() / by_hand - 1.0).abs() < 1e-6, "{} {by_hand}", before.linear.norm());
+        run(&mut world, &mut set, 10);
+        let after = set.momentum(&world).unwrap();
+        let sizes = [before.linear.norm(), before.angular.norm()];
+        for (off, size) in [after.linear - before.linear, after.angular - before.angular].iter().zip(sizes) {
+            assert!(off.norm() < 1e-5 * size, "stock of {stock} m: {off} of {size}");
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Statics of cables and bodies under twist and in water, and the runs that start from them.
 
+mod centre;
 mod torsion;
 mod water;
 

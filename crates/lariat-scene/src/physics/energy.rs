@@ -5,7 +5,6 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
 use lariat_ancf::Vector3;
-use lariat_ancf::integrate::OneStep;
 use lariat_rapier::CableHandle;
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
@@ -106,7 +105,12 @@ impl Physics {
 
     /// Returns whether a cable steps by the discrete gradient.
     fn has_law(&self, cable: CableHandle) -> bool {
-        self.cables.get(cable).is_ok_and(|cable| cable.integrator().method.uses_discrete_gradients())
+        self.cables.steps_by_discrete_gradient(cable).unwrap_or(false)
+    }
+
+    /// Returns whether all cables step by the discrete gradient.
+    pub fn all_have_law(&self) -> bool {
+        self.handles.iter().all(|cable| self.has_law(*cable))
     }
 
     /// Returns the weight of the dynamic bodies in N.

@@ -69,6 +69,12 @@ impl Account {
             last.clone_from(&now);
             now.clone()
         });
+        // an island that changed its integrator changed which account has the forces on its bodies
+        for (now, last_body) in now.bodies.iter().zip(&mut last.bodies) {
+            let moved = last_body.gravity - last_body.loads;
+            last.work += moved * (f64::from(now.in_law) - f64::from(last_body.in_law));
+            last_body.in_law = now.in_law;
+        }
         let cables = |t: &Terms| t.kinetic + t.strain + t.gravity + t.dissipated - t.work;
         let mut change = cables(&now) - cables(last);
         let mut work = now.work - last.work;

@@ -86,7 +86,7 @@ impl World {
     /// [`Error::Coupling`]; not for a running scene.
     pub(super) fn terms(&self) -> Result<Terms, Error> {
         let mut terms = Terms::default();
-        let (mut by_law, mut all_by_law, mut winds) = (0.0, true, false);
+        let (mut by_law, mut winds) = (0.0, false);
         for cable in self.cables() {
             let (energy, effects, law) = (cable.energy(), cable.effect_work(), cable.energy_law());
             terms.kinetic += energy.kinetic;
@@ -102,7 +102,6 @@ impl World {
             winds |= cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
             by_law += law.residual - law.numerical - law.rescaled - law.shortened;
-            all_by_law &= cable.integrator().method.uses_discrete_gradients();
         }
         if let Some(physics) = &self.physics {
             terms.rounding = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;
@@ -116,8 +115,16 @@ impl World {
         let in_law = terms.bodies.iter().filter(|body| body.in_law);
         terms.work += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
         // the work of winches is checked too, where that of contacts does not keep it from being known
-        terms.by_law = (all_by_law && (terms.unknown || !winds)).then_some(by_law);
+        terms.by_law = (self.has_energy_law() && (terms.unknown || !winds)).then_some(by_law);
         Ok(terms)
+    }
+
+    /// Returns whether all cables step by the discrete gradient.
+    pub(super) fn has_energy_law(&self) -> bool {
+        match &self.physics {
+            Some(physics) if self.alone.is_empty() => physics.all_have_law(),
+            _ => self.alone.iter().all(|cable| cable.integrator().method.uses_discrete_gradients()),
+        }
     }
 
     /// Returns the momentum of a cable, or of all cables and dynamic bodies.

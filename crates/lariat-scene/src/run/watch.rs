@@ -6,7 +6,6 @@ use super::wheels::WheelWatch;
 use crate::error::Error;
 use crate::scene::Purpose;
 use crate::warning::Warning;
-use lariat_ancf::integrate::OneStep;
 use lariat_ancf::warning::balance::{EnergyBalance, Verdict};
 
 /// The readings of the cables of a run so far, and its energy balance.
@@ -55,7 +54,7 @@ impl Watch {
     }
 
     fn energy_warning(&self, world: &World) -> Option<Warning> {
-        let discrete_gradient = world.cables().iter().all(|cable| cable.integrator().method.uses_discrete_gradients());
+        let discrete_gradient = world.has_energy_law();
         Some(match self.account.balance.verdict()? {
             Verdict::Made(time_s, made_j, scale_j) => {
                 Warning::EnergyMade { time_s, made_j, scale_j, discrete_gradient }

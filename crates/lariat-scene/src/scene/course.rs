@@ -11,6 +11,8 @@
 //! first row   r_0 = ((2 h_0 + h_1) d_0 - h_0 d_1)/(h_0 + h_1), and the last one likewise
 //! ```
 //!
+//! but 0 at a row beside an equal one: between equal rows the body stays.
+//!
 //! Rotations are interpolated so by the rotation vector phi from row i on, q = q_i exp(phi), where d is
 //! log(q_i^-1 q_{i+1})/h and angular velocities in axes of the body are rates of phi by the right
 //! Jacobian: w = J(phi) phi'.
@@ -152,6 +154,10 @@ fn rate<T>(rows: &[(f64, T)], row: usize, mean: impl Fn(usize) -> Vector3<f64>) 
     if last == 1 {
         return mean(0);
     }
+    let beside = row.saturating_sub(1)..(row + 1).min(last);
+    if beside.into_iter().any(|interval| mean(interval) == Vector3::zeros()) {
+        return Vector3::zeros();
+    }
     // the interval whose rate counts more at an end, and the next
     let beyond = |near: usize, far: usize| {
         let (h, g) = (length(near), length(far));
@@ -222,6 +228,18 @@ mod tests {
         }
         assert_eq!(path.corners().collect::<Vec<_>>(), [1.0, 2.0, 4.0]);
         assert!(path.rotation(1.0).is_none());
+    }
+
+    #[test]
+    fn a_smooth_path_stays_between_equal_rows() {
+        let x = Vector3::x();
+        let rows = vec![(0.0, x), (1.0, x), (2.0, 2.0 * x), (3.0, 2.0 * x), (3.5, 2.0 * x), (5.0, x)];
+        let path = Path { smooth: true, ..line(rows) };
+        for (time, at) in [(0.0, 1.0), (0.5, 1.0), (1.0, 1.0), (2.0, 2.0), (2.7, 2.0), (3.2, 2.0), (3.5, 2.0)] {
+            assert_eq!(path.position(time), Some((at * x, Vector3::zeros())), "t = {time}");
+        }
+        let (halfway, speed) = path.position(1.5).unwrap();
+        assert!((halfway.x - 1.5).abs() < 1e-15 && (speed.x - 1.5).abs() < 1e-15, "{halfway} {speed}");
     }
 
     #[test]

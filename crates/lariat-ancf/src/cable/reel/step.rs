@@ -6,7 +6,7 @@ use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use crate::integrate::OneStep;
 use crate::reel::{Feed, Reel};
-use crate::scales::reel::{LARGEST_SHARE, MOST_PARTS, PASSING, STANDING_RATE};
+use crate::scales::reel::{LARGEST_SHARE, MOST_PARTS, MOST_PARTS_OF_WAVE, PASSING, STANDING_RATE};
 
 impl Cable {
     /// Returns the number of parts in which a host step of `dt` (s) is to be taken; 1 without a
@@ -18,7 +18,11 @@ impl Cable {
         let mut most = 1.0;
         for side in self.model.reels.sides() {
             let full = self.model.reels.least_length();
-            let parts = (self.fastest_rate(side, dt) * dt / (PASSING * full)).ceil();
+            let parts = |rate: f64| (rate * dt / (PASSING * full)).ceil();
+            let has_law = self.model.reels.get(side).is_some_and(Reel::has_law);
+            // what an unknown rate gains in a wave is over soon
+            let (rate, fastest) = (self.rate(side).abs(), self.fastest_rate(side, dt));
+            let parts = if has_law { parts(rate).max(parts(fastest).min(MOST_PARTS_OF_WAVE)) } else { parts(fastest) };
             require("parts of a host step for the rate of its reel", parts, parts <= MOST_PARTS, "<= 1e5")
                 .map_err(|e| e.of_cable(self.name()))?;
             most = f64::max(most, parts);
@@ -176,6 +180,23 @@ impl Cable {
                 winding.rides = moves(side.nodes(nodes)[1]);
             }
         }
+    }
+
+    /// Lets the stock at the eye at a node ride with a body.
+    pub(crate) fn add_riding_stock(&mut self, node: usize) {
+        let nodes = self.nodes();
+        let at_eye = Side::BOTH.into_iter().filter(|side| side.nodes(nodes)[1] == node);
+        for side in at_eye {
+            if let Some(winding) = &mut self.snapshot.windings[side as usize] {
+                winding.rides = true;
+            }
+        }
+        self.sync_reel();
+    }
+
+    /// Returns the rate in m/s of a reel.
+    fn rate(&self, side: Side) -> f64 {
+        self.snapshot.windings[side as usize].as_ref().map_or(0.0, |winding| winding.extent[1])
     }
 
     /// Returns the largest rate in m/s of a reel in the coming `dt` (s).

@@ -44,6 +44,7 @@ mod spline;
 mod taut;
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
+use super::work::POINTS;
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::axial::moment;
@@ -278,9 +279,19 @@ impl ElementForce for LawTable {
     }
 
     fn strain(&self, _: usize, xi: f64, at: &GramState<'_, f64>) -> f64 {
-        let green = crate::element::axial::projected::strain(&at.g, xi);
-        let square = 1.0 + 2.0 * green;
-        self.spline.force(stretch(square)[0] - 1.0) / square.max(CRUMPLED).sqrt() - green
+        let stress = |point: &Six<f64>| {
+            let square = form(point, &at.g);
+            self.spline.force(stretch(square)[0] - 1.0) / square.max(CRUMPLED).sqrt()
+        };
+        // the stress that does work is that at the points: between a slack and a taut one strains say little
+        let stress = match &self.points[..] {
+            [first, second] => {
+                let [from, to] = [stress(first), stress(second)];
+                from + (to - from) * (xi - POINTS[0]) / (POINTS[1] - POINTS[0])
+            }
+            points => points.iter().map(stress).sum::<f64>() / points.len() as f64,
+        };
+        stress - crate::element::axial::projected::strain(&at.g, xi)
     }
 
     fn curvature(&self, _: &SampledPoint<'_>) -> Vector3<f64> {

@@ -14,8 +14,8 @@ use crate::island::pin::PinConstraint;
 use crate::island::rotation::{exponential, jacobian_inverse};
 use crate::model::{LoadScale, Model, largest_force};
 use crate::scales::statics::{
-    AT_REST, GROWTH, ISLAND_CONVERGED, ISLAND_STAGNATION, MAX_C2, MAX_ITERATIONS, MAX_SHAKES, MAX_SLOPE_CHANGE, MIN_C2,
-    REDUCTION, SHAKE, STABILITY_C2,
+    AT_REST, GROWTH, ISLAND_CONVERGED, ISLAND_STAGNATION, LEVER_ROUNDING, MAX_C2, MAX_ITERATIONS, MAX_SHAKES,
+    MAX_SLOPE_CHANGE, MIN_C2, REDUCTION, SHAKE, STABILITY_C2,
 };
 use crate::section::Element;
 use crate::statics::{first_fold, move_with_supports, potential, straighten};
@@ -72,6 +72,8 @@ impl<'a> Search<'a> {
             layout.joints = Joints::new(joints, elastic.max(force / length), length);
             layout.joints.lengthen(&mut layout.levers);
         }
+        // a body that is held at its centre turns about nothing
+        layout.levers.iter_mut().filter(|lever| **lever < LEVER_ROUNDING * length).for_each(|lever| *lever = 0.0);
         twists::begin(cables, &layout);
         let twisted = |c: &&mut Cable| c.system.static_torsion.as_ref().is_some_and(|torsion| torsion.count() > 0);
         let twists = cables.iter().any(twisted).then(Twists::default);

@@ -31,7 +31,7 @@ pub(crate) fn add(
         half.add_reel(end, Reel::over_sheave())?;
     }
     let cut = |cable: &mut Cable| {
-        let (mut rest, how) = cable.break_at(at)?;
+        let (mut rest, how) = cable.divide_at(at)?;
         cable.open_corner(At::End);
         rest.open_corner(At::Start);
         Ok(Some((rest, how)))
