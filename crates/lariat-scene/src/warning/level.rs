@@ -35,6 +35,7 @@ impl Warning {
             | Warning::WheelTurned { .. }
             | Warning::EnergyMade { .. }
             | Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::UnstableEquilibrium { .. } => Level::Wrong,
             Warning::EnergyLost { .. } => Level::Coarse,
@@ -67,6 +68,7 @@ impl Warning {
             | Warning::EnergyMade { .. }
             | Warning::EnergyLost { .. }
             | Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::FarAnchor { .. }
@@ -101,6 +103,7 @@ impl Judged for Warning {
             | Warning::UnfinishedRamp { .. }
             | Warning::MomentAlong { .. }
             | Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::RankDeficient { .. }
             | Warning::UnstableEquilibrium { .. }
@@ -160,6 +163,7 @@ impl Judged for Warning {
             Warning::FarFromOrigin { distance_m, .. } => *distance_m,
             Warning::FastSpin { turn_rad, .. } => *turn_rad,
             Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::RankDeficient { .. }
             | Warning::LeftAsDrawn { .. } => 0.0,

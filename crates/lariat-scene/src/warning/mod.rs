@@ -222,6 +222,24 @@ pub enum Warning {
         /// True if the runs are apart by more than a tenth of the longest cable.
         other_branch: bool,
     },
+    /// An error of tensions or moments that was asked for and is not proven.
+    #[error("the error {target} is not proven{} with elements = {elements}{}{}", until(*.horizon_s, None), would_need(*.elements_needed),
+        branches(*.other_branch)
+    )]
+    ForcesNotProven {
+        /// What was asked for.
+        target: lariat_ancf::study::Target,
+        /// Estimate of the error in N or N m, or as a share, if the meshes could be compared.
+        estimate: Option<f64>,
+        /// Elements of the cable that has most.
+        elements: usize,
+        /// Elements that it would need about, by the order that the runs show.
+        elements_needed: Option<usize>,
+        /// First host time in s at which the error is not proven.
+        horizon_s: Option<f64>,
+        /// True if the runs are apart by more than a tenth of the longest cable.
+        other_branch: bool,
+    },
     /// A rule with zero-energy modes, as the scene allows.
     #[error("cable {cable:?}: rule {rule} has zero-energy modes, as allowed: {reason}")]
     RankDeficient {
