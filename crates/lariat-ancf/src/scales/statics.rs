@@ -195,3 +195,9 @@ pub(crate) const MOST_PASSED: f64 = 0.1;
 /// Difference of the pulls at a sheave, as a multiple of the largest residual of an equilibrium.
 /// Unknown: each pull is as good as that.
 pub(crate) const PULLS: f64 = 10.0;
+
+/// First share of what drives a shape. Unknown: doubled where it converges, twice.
+pub(crate) const FIRST_SHARE: f64 = 0.25;
+
+/// Smallest change of it. Unknown: six halvings of the first.
+pub(crate) const LEAST_SHARE: f64 = 1.0 / 256.0;

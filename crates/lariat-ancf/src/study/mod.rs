@@ -229,7 +229,7 @@ impl<F> Study<F> {
                     let of_waves = order::factor(&differences, indicated, KINKS) * difference;
                     (factor * difference).max(fine.record.indicated_error()).min(of_waves)
                 }
-                true if coupled || fine.record.carries() => {
+                true if coupled || span.is_none() && fine.record.carries() => {
                     factor * difference.max(order::least_distance(&differences))
                 }
                 true => factor * difference,

@@ -37,6 +37,7 @@ mod balance;
 mod error_target;
 mod fine;
 mod folder;
+mod hinges;
 mod output;
 mod parts;
 mod pieces;

@@ -49,7 +49,7 @@ table! {
         /// Points between the ends at which the slope is free on both sides, as at a hinge: where a point load, a junction or a ball
         /// attachment bends a cable that is limp, `sqrt(EI/T)` far below an element. It stays one cable, and no moment goes through them.
         /// Need `engine = "rapier"`. An equilibrium is that of the scene.
-        kinks: Vec<Position> = ("none"), Kind::List(&POSITION), "m";
+        kinks: Option<Vec<Position>> = ("none"), Kind::List(&POSITION), "m";
         /// Shape of a solid section, or a rope or chain by name and nominal diameter; or the three stiffnesses.
         section: Option<SectionForm> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
         /// Density of the material, beside a solid `section`.
@@ -252,7 +252,7 @@ pub(super) fn read(
     }
     integrator::check_tolerance(doc, &at.key("integrator").key("tolerance"), &row.integrator, length)?;
     let kink = |(k, point): (usize, &Position)| arc_length(doc, &at.key("kinks").item(k), *point, length);
-    let kinks = row.kinks.iter().enumerate().map(kink).collect::<Result<_, _>>()?;
+    let kinks = row.kinks.iter().flatten().enumerate().map(kink).collect::<Result<_, _>>()?;
     let cable = CableScene {
         points: row.points,
         length,

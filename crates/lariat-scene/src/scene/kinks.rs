@@ -15,7 +15,7 @@
 //!
 //! # Alternatives considered
 //!
-//! docs/decisions/elements.md: a node with one position and two slopes.
+//! A node with one position and two slopes: docs/decisions/elements.md, carried.rs.
 
 use super::attachment::AttachmentScene;
 use super::cable::CableScene;

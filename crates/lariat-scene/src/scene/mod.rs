@@ -264,7 +264,6 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         scene.attachments.push(row);
     }
     passing::add(doc, &mut scene, at_sheaves)?;
-    kinks::join(doc, &mut scene)?;
     for (cable, drum) in drums {
         reel::put_on_drum(doc, &mut scene, cable, &drum)?;
     }
@@ -272,6 +271,8 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         let row = junction::read(doc, &scene, i, row)?;
         scene.junctions.push(row);
     }
+    // what is tied at a kink is in its knot
+    kinks::join(doc, &mut scene)?;
     for (i, row) in table.sheave.into_iter().enumerate() {
         let row = sheave::read(doc, &mut scene, i, row, along[i].take())?;
         scene.sheaves.push(row);
@@ -291,7 +292,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
 
 /// Returns the engine; without the key, bodies, junctions, sheaves and contact of cables with cables choose Rapier.
 fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
-    let kinked = table.cable.iter().position(|row| !row.kinks.is_empty());
+    let kinked = table.cable.iter().position(|row| row.kinks.as_ref().is_some_and(|kinks| !kinks.is_empty()));
     let alone = table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty() && kinked.is_none();
     let mut touching = false;
     for (i, row) in table.cable.iter().enumerate() {

@@ -113,6 +113,23 @@ pub enum Warning {
         /// Time in s.
         time_s: f64,
     },
+    /// A kink of a cable that is too stiff for a hinge.
+    #[error(
+        "cable {cable:?}: its kink at {at_m:.4} m leaves out the moment there, within {layer_m:.1e} m of it, which puts points up to {error_m:.1e} m off at \
+         {time_s:.3} s: leave the kink out, with elements shorter than {layer_m:.1e} m there (`elements = {{ count, finest, at }}`)"
+    )]
+    StiffKink {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the kink in m.
+        at_m: f64,
+        /// Time in s.
+        time_s: f64,
+        /// Length in m within which the cable bends, `sqrt(EI/T)`.
+        layer_m: f64,
+        /// Estimate of the error of position in m.
+        error_m: f64,
+    },
     /// A part of a cable that turned at a wheel, whose points do not follow it.
     #[error(
         "sheave {sheave:?}: a part of its cable turned there by {angle_rad:.3} rad, at {time_s:.3} s: the point where it leaves the wheel is fixed to \

@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
-    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, lay_out, straighten,
+    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, in_shares, lay_out, straighten,
 };
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
@@ -53,7 +53,7 @@ impl Cable {
         }
         let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0 };
         let outcome = find(&mut alone);
-        let iterations = alone.searched + alone.budget.done;
+        let iterations = alone.searched + alone.budget.total();
         self.model.loads = loads;
         let contacts = self.end_static_contact();
         match outcome {
@@ -116,7 +116,7 @@ impl Cable {
     fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
         if self.system.forces.drive() {
-            return self.come_to_rest_in_flow(budget);
+            return self.come_to_rest_driven(budget);
         }
         let start = self.snapshot.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
@@ -167,6 +167,35 @@ impl Cable {
             }
             None => Err(last),
         }
+    }
+
+    /// Comes to rest under what drives the cable, which grows from nothing if no shape is found at
+    /// once.
+    fn come_to_rest_driven(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+        let start = self.snapshot.clone();
+        let failure = match self.come_to_rest_in_flow(budget) {
+            Ok(report) => return Ok(report),
+            Err(failure) => failure,
+        };
+        let end = core::mem::replace(&mut self.snapshot, start);
+        let time = self.time();
+        let found = in_shares(|share| {
+            let before = self.snapshot.clone();
+            self.system.forces.hold_share(&self.model, time, share);
+            budget.begin_share();
+            let outcome =
+                if self.system.forces.drive() { self.come_to_rest_in_flow(budget) } else { self.attempts(budget) };
+            if outcome.is_err() {
+                self.snapshot = before;
+            }
+            outcome
+        });
+        self.system.forces.release(&self.model);
+        found.ok_or_else(|| {
+            // the shape in which it failed at first tells why
+            self.snapshot = end;
+            failure
+        })
     }
 
     /// Comes to rest in a flow, or under a force of the user's own, which have no potential to
@@ -241,7 +270,7 @@ struct Alone<'a> {
 
 impl Alone<'_> {
     fn begin(&mut self) {
-        self.searched += self.budget.done;
+        self.searched += self.budget.total();
         self.budget = Budget::new(&self.options);
     }
 }
