@@ -173,23 +173,27 @@ impl Cable {
     /// once.
     fn come_to_rest_driven(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
         let start = self.snapshot.clone();
-        let failure = match self.come_to_rest_in_flow(budget) {
+        let failure = match self.come_to_rest_in_flow(budget, false) {
             Ok(report) => return Ok(report),
             Err(failure) => failure,
         };
         let end = core::mem::replace(&mut self.snapshot, start);
         let time = self.time();
-        let found = in_shares(|share| {
+        let mut at = |share: f64| {
             let before = self.snapshot.clone();
             self.system.forces.hold_share(&self.model, time, share);
             budget.begin_share();
-            let outcome =
-                if self.system.forces.drive() { self.come_to_rest_in_flow(budget) } else { self.attempts(budget) };
+            let outcome = if self.system.forces.drive() {
+                self.come_to_rest_in_flow(budget, true)
+            } else {
+                self.attempts(budget)
+            };
             if outcome.is_err() {
                 self.snapshot = before;
             }
             outcome
-        });
+        };
+        let found = at(1.0).ok().or_else(|| in_shares(at));
         self.system.forces.release(&self.model);
         found.ok_or_else(|| {
             // the shape in which it failed at first tells why
@@ -200,9 +204,9 @@ impl Cable {
 
     /// Comes to rest in a flow, or under a force of the user's own, which have no potential to
     /// minimise.
-    fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    fn come_to_rest_in_flow(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         let start = self.snapshot.clone();
-        let found = self.come_to_rest(budget);
+        let found = self.come_to_rest(budget, exact);
         if found.is_ok() || self.effects().contact.is_some() || self.effects().torsion.is_some() {
             return found;
         }
@@ -212,11 +216,12 @@ impl Cable {
     }
 
     /// Comes to rest by the search of an island without bodies.
-    fn come_to_rest(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    fn come_to_rest(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         let loads = self.model.loads.clone();
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
         let cables = &mut [&mut *self];
         let mut search = Search::new(cables, &[], (&[], &[], Loads::default()), budget.tolerance);
+        search.exact = exact;
         let outcome = search.run(cables, budget.left());
         self.model.loads = loads;
         self.snapshot.state.q.copy_from_slice(&search.q);
@@ -291,7 +296,7 @@ impl Continued for Alone<'_> {
         let Alone { cable, budget, .. } = self;
         cable.with_workspace(|cable| {
             if cable.system.forces.drive() {
-                return cable.come_to_rest_in_flow(budget);
+                return cable.come_to_rest_in_flow(budget, false);
             }
             let report = cable.minimise_energy(1.0, budget)?;
             cable.without_folds(report, budget)

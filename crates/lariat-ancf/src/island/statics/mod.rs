@@ -18,8 +18,9 @@
 //! the next, and [torsion](twists) couples the bodies that hold a cable.
 //!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
-//! symmetric: the error falls linearly. Where no shape is found at once, what drives it grows from
-//! nothing, and the shape is followed.
+//! symmetric: the error falls linearly. Where no shape is found so, the whole tangent is solved with
+//! (`krylov`); and where that finds none, what drives the shape grows from nothing, and it is
+//! followed.
 //!
 //! # Validity
 //!
@@ -40,6 +41,7 @@
 
 mod alone;
 mod joint;
+mod krylov;
 mod load;
 mod search;
 mod sheaves;
@@ -154,7 +156,7 @@ fn settle_driven(
     let follows = driven && sheaves.is_empty();
     let copy = |cables: &[&mut Cable]| cables.iter().map(|cable| (**cable).clone()).collect::<Vec<Cable>>();
     let start = follows.then(|| (copy(cables), bodies.to_vec()));
-    let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(loads)), options);
+    let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(loads)), options, false);
     let (Err(error), Some(start)) = (&outcome, start) else { return outcome };
     let Error::NoEquilibrium { failure, iterations: first, .. } = error else { return outcome };
     if matches!(failure, EquilibriumFailure::NotHeld | EquilibriumFailure::Touches { .. }) {
@@ -162,7 +164,7 @@ fn settle_driven(
     }
     let mut iterations = *first;
     let mut good = start;
-    let found = in_shares(|share| {
+    let mut at = |share: f64| {
         for (cable, good) in cables.iter_mut().zip(&good.0) {
             (**cable).clone_from(good);
             let (now, Cable { system, model, .. }) = (good.time(), &mut **cable);
@@ -174,7 +176,7 @@ fn settle_driven(
         let own: Vec<_> = loads.iter().map(|(body, load)| (*body, load.driven_by(share))).collect();
         let of_share = own.iter().zip(loads).map(|((body, own), (_, load))| (*body, own.as_deref().unwrap_or(*load)));
         let of_share: Vec<(usize, &dyn PlacedLoad)> = of_share.collect();
-        let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(&of_share)), options);
+        let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(&of_share)), options, true);
         match &outcome {
             Ok(report) => {
                 iterations += report.iterations;
@@ -188,7 +190,8 @@ fn settle_driven(
             Err(_) => {}
         }
         outcome
-    });
+    };
+    let found = at(1.0).ok().or_else(|| in_shares(at));
     found.map_or(outcome, |report| Ok(EquilibriumReport { iterations, ..report }))
 }
 
@@ -198,12 +201,14 @@ fn settle(
     bodies: &mut [RigidBody],
     (pins, joints, sheaves, loads): (&[PinConstraint], &[StaticJoint], &[Sheave], Loads<'_>),
     options: EquilibriumOptions,
+    exact: bool,
 ) -> Result<EquilibriumReport, Error> {
     let (mut pins, mut passing) = (pins.to_vec(), Passing::new(sheaves, cables));
     let mut iterations = 0;
     loop {
         cables.iter_mut().for_each(|cable| cable.begin_static_contact());
-        let search = Search::new(cables, bodies, (&pins, joints, loads), options.tolerance);
+        let mut search = Search::new(cables, bodies, (&pins, joints, loads), options.tolerance);
+        search.exact = exact;
         let mut together = Together { cables, search, iterations: options.iterations };
         let outcome = find(&mut together);
         let search = together.search;
