@@ -44,30 +44,17 @@ pub(crate) struct Budget {
     pub done: usize,
     /// Iterations done when the present attempt began.
     began: usize,
-    /// Iterations done before the present budget.
-    earlier: usize,
 }
 
 impl Budget {
     /// Returns an unspent budget.
     pub fn new(options: &EquilibriumOptions) -> Self {
-        Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0, began: 0, earlier: 0 }
+        Budget { tolerance: options.tolerance, attempt: options.iterations, done: 0, began: 0 }
     }
 
     /// Begins an attempt.
     pub fn begin_attempt(&mut self) {
         self.began = self.done;
-    }
-
-    /// Begins with an unspent budget for another share of what drives the shape.
-    pub fn begin_share(&mut self) {
-        self.earlier += self.done;
-        (self.done, self.began) = (0, 0);
-    }
-
-    /// Returns the number of all iterations.
-    pub fn total(&self) -> usize {
-        self.earlier + self.done
     }
 
     /// Takes one iteration, and returns whether one remained.

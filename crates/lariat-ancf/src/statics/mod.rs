@@ -11,8 +11,8 @@
 //!
 //! In a flow there is no potential energy to minimise: the search of an [island](crate::island)
 //! without bodies, and, for a cable that it does not bring to rest and that touches nothing,
-//! `rest_in_flow`; where neither finds a shape, the flow grows from none (`driven`). With contact, the law of contact is made harder from search to search
-//! (`continuation`).
+//! `rest_in_flow`; where neither finds a shape, the flow grows from none (`driven`). With contact,
+//! the law of contact is made harder from search to search (`continuation`).
 //!
 //! A shape with [folded elements](folds) is straightened once and minimised again; if it folds
 //! again the attempt has failed. A small residual is not enough: the increments of Newton's method

@@ -3,9 +3,9 @@
 //! # Equation
 //!
 //! Recorded are, on both sides, the values at the nodes that are held, loaded or ends, as probes
-//! have them, and the largest value of all nodes, both by nodal equilibrium, and what probes read. Two runs differ at a time by the largest difference of
-//! these; if a share is asked for, of each cable as a share of the largest value that it has in the
-//! finer run.
+//! have them, and the largest value of all nodes, both by nodal equilibrium, and what probes read.
+//! Two runs differ at a time by the largest difference of these; if a share is asked for, of each
+//! cable as a share of the largest value that it has in the finer run.
 //!
 //! An error `e` of what is carried is an error of positions
 //!

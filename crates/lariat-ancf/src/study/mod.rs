@@ -35,10 +35,10 @@
 //! Asked for an error of tensions or moments ([`Target`]), the study runs the world once at first,
 //! for what its cables carry, and then compares that: at the nodes that are held, loaded or ends,
 //! and the largest along each cable. Tolerances begin with the error of positions that belongs to
-//! it, which is also what a tolerance counts as (`forces.rs`). The mesh indicator is about positions
-//! and says nothing; of an equilibrium the order is half an order below what two distances show, 2/3
-//! to 2, and 1 of a single distance. No distance counts as smaller than at the order 2.5 after the
-//! one before: on a seabed two meshes agree by chance to a 40th of their error.
+//! it, which is also what a tolerance counts as (`forces.rs`). The mesh indicator is about
+//! positions and says nothing; of an equilibrium the order is half an order below what two
+//! distances show, 2/3 to 2, and 1 of a single distance. No distance counts as smaller than at the
+//! order 2.5 after the one before: on a seabed two meshes agree by chance to a 40th of their error.
 //!
 //! # Validity
 //!

@@ -51,9 +51,15 @@ impl Cable {
             load.stay(now);
             (load.ramp, load.start) = (1.0, 0.0);
         }
-        let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0 };
-        let outcome = find(&mut alone);
-        let iterations = alone.searched + alone.budget.total();
+        let start = self.system.forces.drive().then(|| self.snapshot.clone());
+        let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0, exact: false };
+        let mut outcome = find(&mut alone);
+        if let (Err(_), Some(start)) = (&outcome, start)
+            && let Some(report) = alone.follow(start)
+        {
+            outcome = Ok(report);
+        }
+        let iterations = alone.searched + alone.budget.done;
         self.model.loads = loads;
         let contacts = self.end_static_contact();
         match outcome {
@@ -113,10 +119,10 @@ impl Cable {
         Some(EquilibriumFailure::Touches { obstacle, arc_length, depth })
     }
 
-    fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    fn attempts(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
         if self.system.forces.drive() {
-            return self.come_to_rest_driven(budget);
+            return self.come_to_rest_in_flow(budget, exact);
         }
         let start = self.snapshot.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
@@ -167,39 +173,6 @@ impl Cable {
             }
             None => Err(last),
         }
-    }
-
-    /// Comes to rest under what drives the cable, which grows from nothing if no shape is found at
-    /// once.
-    fn come_to_rest_driven(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
-        let start = self.snapshot.clone();
-        let failure = match self.come_to_rest_in_flow(budget, false) {
-            Ok(report) => return Ok(report),
-            Err(failure) => failure,
-        };
-        let end = core::mem::replace(&mut self.snapshot, start);
-        let time = self.time();
-        let mut at = |share: f64| {
-            let before = self.snapshot.clone();
-            self.system.forces.hold_share(&self.model, time, share);
-            budget.begin_share();
-            let outcome = if self.system.forces.drive() {
-                self.come_to_rest_in_flow(budget, true)
-            } else {
-                self.attempts(budget)
-            };
-            if outcome.is_err() {
-                self.snapshot = before;
-            }
-            outcome
-        };
-        let found = at(1.0).ok().or_else(|| in_shares(at));
-        self.system.forces.release(&self.model);
-        found.ok_or_else(|| {
-            // the shape in which it failed at first tells why
-            self.snapshot = end;
-            failure
-        })
     }
 
     /// Comes to rest in a flow, or under a force of the user's own, which have no potential to
@@ -271,11 +244,43 @@ struct Alone<'a> {
     budget: Budget,
     /// Iterations of the searches before the present one.
     searched: usize,
+    /// Whether the part of the tangent that is not symmetric is solved with the rest.
+    exact: bool,
 }
 
 impl Alone<'_> {
+    /// Searches with the whole tangent, and if that fails too under what drives the cable as it grows
+    /// from nothing. Without a shape the cable is as before.
+    fn follow(&mut self, start: Snapshot) -> Option<EquilibriumReport> {
+        if self.cable.effects().torsion.is_some() {
+            return None;
+        }
+        self.exact = true;
+        let (time, mut good) = (self.cable.time(), start);
+        let end = self.cable.snapshot.clone();
+        let mut at = |share: f64| {
+            let cable = &mut *self.cable;
+            cable.snapshot = good.clone();
+            cable.system.forces.hold_share(&cable.model, time, share);
+            cable.system.static_contact.end();
+            cable.begin_static_contact();
+            let found = find(self);
+            if found.is_ok() {
+                good = self.cable.snapshot.clone();
+            }
+            found
+        };
+        let found = at(1.0).ok().or_else(|| in_shares(at));
+        self.cable.system.forces.release(&self.cable.model);
+        if found.is_none() {
+            // the shape in which it failed at first tells why
+            self.cable.snapshot = end;
+        }
+        found
+    }
+
     fn begin(&mut self) {
-        self.searched += self.budget.total();
+        self.searched += self.budget.done;
         self.budget = Budget::new(&self.options);
     }
 }
@@ -287,16 +292,16 @@ impl Continued for Alone<'_> {
 
     fn search(&mut self) -> Result<EquilibriumReport, Failure> {
         self.begin();
-        let Alone { cable, budget, .. } = self;
-        cable.with_workspace(|cable| cable.attempts(budget))
+        let Alone { cable, budget, exact, .. } = self;
+        cable.with_workspace(|cable| cable.attempts(budget, *exact))
     }
 
     fn improve(&mut self) -> Result<EquilibriumReport, Failure> {
         self.begin();
-        let Alone { cable, budget, .. } = self;
+        let Alone { cable, budget, exact, .. } = self;
         cable.with_workspace(|cable| {
             if cable.system.forces.drive() {
-                return cable.come_to_rest_in_flow(budget, false);
+                return cable.come_to_rest_in_flow(budget, *exact);
             }
             let report = cable.minimise_energy(1.0, budget)?;
             cable.without_folds(report, budget)

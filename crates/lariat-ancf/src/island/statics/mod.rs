@@ -18,8 +18,8 @@
 //! the next, and [torsion](twists) couples the bodies that hold a cable.
 //!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
-//! symmetric: the error falls linearly. Where no shape is found so, the whole tangent is solved with
-//! (`krylov`); and where that finds none, what drives the shape grows from nothing, and it is
+//! symmetric: the error falls linearly. Where no shape is found so, the whole tangent is solved
+//! with (`krylov`); and where that finds none, what drives the shape grows from nothing, and it is
 //! followed.
 //!
 //! # Validity

@@ -411,7 +411,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Adds a share of increments `x`, which solve the equations at coordinates `trial`, to displacements.
+/// Adds a share of increments `x`, which solve the equations at coordinates `trial`, to
+/// displacements.
 fn displace(layout: &Layout, trial: &[f64], x: &[f64], share: f64, z: &mut [f64]) {
     for i in 0..layout.bodies_at {
         z[i] += share * x[i];
