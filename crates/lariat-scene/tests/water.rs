@@ -243,6 +243,51 @@ fn a_fish_that_is_drawn_hanging_is_found_in_fast_streams() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
+/// A line that is drawn hanging with a free end streams straight, at the angle at which its weight balances the drag across it, in every stream.
+///
+/// *Source.* Analytic (Pode 1951): w cos(a) = 1/2 rho d C_n U^2 sin^2(a), with the angle a to the stream; the tension at the ship is
+/// L (w sin(a) + 1/2 rho d C_t U^2 cos^2(a)).
+#[test]
+fn a_free_line_streams_at_its_critical_angle() {
+    let (d, normal, tangential, mass) = (0.01, 1.2, 0.02, 0.3);
+    let area = PI / 4.0 * d * d;
+    let w = (mass - RHO * area) * G;
+    let mut missed = Vec::new();
+    for length in [10.0, 60.0, 300.0] {
+        for stream in [0.3, 1.0, 2.5, 5.0, 10.0] {
+            let text = format!(
+                "duration = 1.0\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [0.0, {:?}, 0.0]]\nelements = 20\n\
+                 axial_stiffness = 4e6\nbending_stiffness = 0.01\nmass_per_length = {mass}\ninitial = \"equilibrium\"\n\
+                 [cable.drag]\nfluid_density = {RHO}\nflow = [{stream:?}, 0.0, 0.0]\nnormal = {normal}\ntangential = {tangential}\n\
+                 diameter = {d}\n[cable.buoyancy]\nfluid_density = {RHO}\narea = {area:e}\n\
+                 [[attachment]]\nname = \"ship\"\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n",
+                -length
+            );
+            let k = 0.5 * RHO * d * stream * stream;
+            // sin^2 = 1 - cos^2: k C_n c^2 + w c - k C_n = 0
+            let kn = k * normal;
+            let cosine = (-w + (w * w + 4.0 * kn * kn).sqrt()) / (2.0 * kn);
+            let sine = (1.0 - cosine * cosine).sqrt();
+            let place = Vector3::new(cosine, -sine, 0.0) * length;
+            let tension = length * (w * sine + k * tangential * cosine * cosine);
+            let mut world = World::build(&parsed(&text).unwrap()).unwrap();
+            let what = format!("{stream} m/s, {length} m");
+            if let Err(error) = world.start(Purpose::Run) {
+                missed.push(format!("{what}: {error}"));
+                continue;
+            }
+            let found = world.cables()[0].sample(length).unwrap().position;
+            let force = world.attachment(0).unwrap().0.norm();
+            let off = ((found - place).norm() / length).max((force / tension - 1.0).abs());
+            println!("{what}: off by {off:.1e}");
+            if off > 1e-3 {
+                missed.push(format!("{what}: {found} {place} {force} {tension}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
 /// The buoy of the scenes floats at its draught on its mooring, and moves by less than 2e-6 m in 10 s of a current of 0.2 m/s without waves, where
 /// 1e-6 m were wanted; in waves it starts there.
 ///
