@@ -283,7 +283,7 @@ impl<F> Study<F> {
             let claimed = proven.then_some(mesh + time.error);
             let finite = Some(mesh).filter(|mesh| mesh.is_finite());
             let of_positions = !fine.record.carries();
-            let forces = (!of_positions).then(|| ForceClaim {
+            let forces = (!of_positions).then_some(ForceClaim {
                 quantity: target.quantity,
                 relative: target.relative,
                 asked: error,

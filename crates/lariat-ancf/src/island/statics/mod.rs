@@ -123,7 +123,7 @@ pub fn equilibrium(
             cable.system.forces.hold(now);
         }
     }
-    let outcome = settle_driven(cables, &mut still, (pins, joints, sheaves, loads), options);
+    let outcome = settle_driven(cables, &mut still, Links { pins, joints, sheaves, drums, loads }, options);
     for (cable, before) in cables.iter_mut().zip(before) {
         if outcome.is_err() {
             **cable = before;
@@ -148,7 +148,7 @@ pub fn equilibrium(
 fn settle_driven(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],
-    (pins, joints, sheaves, loads): (&[PinConstraint], &[StaticJoint], &[Sheave], &[(usize, &dyn PlacedLoad)]),
+    Links { pins, joints, sheaves, loads, .. }: Links<'_>,
     options: EquilibriumOptions,
 ) -> Result<EquilibriumReport, Error> {
     let driven = cables.iter().any(|c| c.system.forces.drive()) || !Loads(loads).have_potential(bodies);
