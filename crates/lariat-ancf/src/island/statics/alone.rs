@@ -249,8 +249,8 @@ struct Alone<'a> {
 }
 
 impl Alone<'_> {
-    /// Searches with the whole tangent, and if that fails too under what drives the cable as it grows
-    /// from nothing. Without a shape the cable is as before.
+    /// Searches with the whole tangent, and if that fails too under what drives the cable as it
+    /// grows from nothing. Without a shape the cable is as before.
     fn follow(&mut self, start: Snapshot) -> Option<EquilibriumReport> {
         if self.cable.effects().torsion.is_some() {
             return None;
