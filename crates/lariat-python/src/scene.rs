@@ -6,6 +6,8 @@ use lariat_scene::command;
 use lariat_scene::run::{self, Options, Recording};
 use lariat_scene::sweep::{self, Row, Source, Store};
 use lariat_scene::{Error, Purpose, Scene};
+use lariat_ancf::study::{InvalidTarget, Target};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::ffi::OsString;
@@ -105,6 +107,22 @@ pub fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| command::run(arguments))
 }
 
+/// An error as Python says it: of positions in m, or a text as of `--error`.
+#[derive(FromPyObject)]
+pub enum AskedError {
+    Positions(f64),
+    Text(String),
+}
+
+impl AskedError {
+    fn target(self) -> PyResult<Target> {
+        match self {
+            AskedError::Positions(error) => Ok(error.into()),
+            AskedError::Text(text) => text.parse().map_err(|error: InvalidTarget| PyValueError::new_err(error.to_string())),
+        }
+    }
+}
+
 /// Runs a scene, or finds its equilibrium. Returns the summary, the rows of the probes, the exception of a
 /// run that failed, and the run.
 #[pyfunction]
@@ -115,10 +133,11 @@ pub fn run_scene<'py>(
     text: &str,
     overrides: Vec<String>,
     statics: bool,
-    error: Option<f64>,
+    error: Option<AskedError>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Run<'py>> {
     let purpose = if statics { Purpose::Static } else { Purpose::Run };
+    let error = error.map(AskedError::target).transpose()?;
     let stop = Arc::new(AtomicBool::new(false));
     let mut teller = Teller::new(progress);
     let recording = py.detach(|| {

@@ -124,6 +124,15 @@ def test_an_error_that_is_asked_for_is_proven() -> None:
     assert 0.0 < away <= claim["claimed_m"] + fine.summary["error"]["claimed_m"]
 
 
+def test_an_error_of_a_tension_is_asked_for_by_a_text() -> None:
+    run = lariat.run({**ROPE, "duration": 0.1}, error="tension=5%", progress=False)
+    claim = run.summary["error"]
+    assert claim["asked_m"] is None and claim["forces"]["quantity"] == "tension"
+    assert claim["forces"]["asked"] == pytest.approx(0.05) and claim["forces"]["relative"]
+    with pytest.raises(ValueError, match="tension=1%"):
+        lariat.run(ROPE, error="strain=1%", progress=False)
+
+
 def test_keys_and_rules_are_told() -> None:
     assert "`elements`" in lariat.keys() and "kg/m^3" in lariat.keys("cable.density")
     assert "projected-3" in lariat.rules() and "L2T2" in lariat.rules()

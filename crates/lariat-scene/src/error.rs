@@ -217,21 +217,23 @@ pub enum Error {
     },
     /// An error that was asked for and cannot be proven.
     #[error(
-        "--error {error}: accepted: a finite number of at least {least:.1e} m, which {reason} allows in this scene"
+        "--error {error}: accepted: a finite number of at least {least:.1e} {unit}, which {reason} allows in this scene"
     )]
     ErrorTooSmall {
-        /// The error in m.
-        error: f64,
-        /// Least error in m.
+        /// What was asked for.
+        error: String,
+        /// Least error.
         least: f64,
+        /// Its unit.
+        unit: &'static str,
         /// What allows no less.
         reason: &'static str,
     },
     /// Runs that cannot be compared.
     #[error("--error {error}: {problem}")]
     Study {
-        /// The error in m.
-        error: f64,
+        /// What was asked for.
+        error: String,
         /// Why.
         problem: String,
     },

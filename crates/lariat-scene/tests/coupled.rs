@@ -63,7 +63,8 @@ fn apart(a: &Recording, b: &Recording, before: f64) -> f64 {
 fn what_is_claimed_holds_against_finer_runs() {
     let (mut proven, mut count) = (0, 0);
     for (asked, scene) in scenes() {
-        let run = collect(&scene, Purpose::Run, &mut Options { error: Some(asked), ..Options::default() }).unwrap();
+        let run =
+            collect(&scene, Purpose::Run, &mut Options { error: Some(asked.into()), ..Options::default() }).unwrap();
         let claim = &run.summary.error.as_ref().unwrap().claim;
         let reference = collect(&finer(&scene, claim), Purpose::Run, &mut Options::default()).unwrap();
         assert!(run.failed.is_none() && reference.failed.is_none(), "{}", scene.name);
@@ -83,7 +84,7 @@ fn what_is_claimed_holds_against_finer_runs() {
 #[test]
 fn samples_are_those_of_the_host_steps_of_the_scene() {
     let (asked, scene) = scenes().into_iter().find(|(_, scene)| scene.name == "motor_of_bounded_force").unwrap();
-    let run = collect(&scene, Purpose::Run, &mut Options { error: Some(asked), ..Options::default() }).unwrap();
+    let run = collect(&scene, Purpose::Run, &mut Options { error: Some(asked.into()), ..Options::default() }).unwrap();
     let plain = collect(&scene, Purpose::Run, &mut Options::default()).unwrap();
     assert!(run.summary.error.as_ref().unwrap().claim.parts > 1);
     for (a, b) in run.probes.iter().zip(&plain.probes) {

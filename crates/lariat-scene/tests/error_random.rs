@@ -101,7 +101,7 @@ fn random_scene(kind: &str, random: &mut Random) -> (String, f64) {
 fn execute(text: &str, error: Option<f64>) -> (Summary, TempDir) {
     let scene = Scene::parse("scene.toml", text, &[], Purpose::Run).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let folder = tempfile::tempdir().unwrap();
-    let summary = run::run(&scene, folder.path(), &mut Options { error, ..Options::default() });
+    let summary = run::run(&scene, folder.path(), &mut Options { error: error.map(Into::into), ..Options::default() });
     (summary.unwrap_or_else(|error| panic!("{error}\n{text}")), folder)
 }
 

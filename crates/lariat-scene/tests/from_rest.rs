@@ -242,7 +242,7 @@ fn a_state_of_another_scene_is_refused() {
         let error = State::read(folder.path()).unwrap_err();
         assert!(matches!(error, Error::State { .. }), "{error}");
     }
-    let mut options = Options { from: Some(state), error: Some(1e-3), ..Options::default() };
+    let mut options = Options { from: Some(state), error: Some(1e-3.into()), ..Options::default() };
     let error = run::run(&parse(&text, Purpose::Resume), folder.path(), &mut options).unwrap_err();
     assert!(matches!(error, Error::State { .. }), "{error}");
 }

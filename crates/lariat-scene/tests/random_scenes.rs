@@ -152,7 +152,7 @@ fn what_is_claimed_for_random_scenes_holds_and_is_not_far_from_the_truth() {
         let scene = scene(&mut random, case, 10);
         let length = scene.cables[0].length;
         let error = length * random.scale(3e-4, 1e-2);
-        let mut options = Options { error: Some(error), ..Options::default() };
+        let mut options = Options { error: Some(error.into()), ..Options::default() };
         let recording = run::collect(&scene, Purpose::Run, &mut options).unwrap();
         let claim = recording.summary.error.unwrap().claim;
         let finer = exact(&scene, 2 * claim.elements, 0.1 * claim.tolerance_m.unwrap());

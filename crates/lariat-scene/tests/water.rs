@@ -61,6 +61,16 @@ impl Tow {
         )
     }
 
+    /// The scene in equilibrium, drawn hanging.
+    fn hanging(&self) -> String {
+        let (text, length) = (self.scene(), self.length);
+        let (from, to) = (text.find("position = ").unwrap(), text.find("[body.water]").unwrap());
+        let text = format!("{}position = [0.0, {:?}, 0.0]\n{}", &text[..from], 2.0 - length, &text[to..]);
+        let (from, to) = (text.find("points = ").unwrap(), text.find("length = ").unwrap());
+        let hanging = format!("points = [[0.0, 2.0, 0.0], [0.0, {:?}, 0.0]]\n", 2.0 - length);
+        format!("initial = \"equilibrium\"\n{}{hanging}{}", &text[..from], &text[to..])
+    }
+
     /// The place of the fish, and the tension at the ship: d(T e)/ds = -f, dx/ds = e (1 + T/EA) from the fish up, by
     /// Runge and Kutta's method with 6000 steps; what is above the level has its weight alone. The height of the fish is
     /// found by bisection.
@@ -156,8 +166,7 @@ fn a_towed_fish_is_where_the_equation_of_its_cable_puts_it() {
     }
 }
 
-/// A fish that starts in equilibrium in a slow stream is where its equation puts it, and stays there, although it is drawn hanging. In fast ones statics
-/// do not find it from there.
+/// A fish that starts in equilibrium in a slow stream is where its equation puts it, and stays there, although it is drawn hanging.
 ///
 /// *Source.* As above.
 #[test]
@@ -168,12 +177,7 @@ fn a_towed_fish_starts_where_the_stream_holds_it() {
     let tow = Tow { stream, level, length, diameter, normal, tangential, ea, mass, fish_mass, fish_radius, fish_area };
     let (way, tension) = tow.solve();
     let place = way[way.len() - 1];
-    let text = tow.scene();
-    let (from, to) = (text.find("position = ").unwrap(), text.find("[body.water]").unwrap());
-    let text = format!("{}position = [0.0, {:?}, 0.0]\n{}", &text[..from], 2.0 - length, &text[to..]);
-    let (from, to) = (text.find("points = ").unwrap(), text.find("length = ").unwrap());
-    let hanging = format!("points = [[0.0, 2.0, 0.0], [0.0, {:?}, 0.0]]\n", 2.0 - length);
-    let text = format!("initial = \"equilibrium\"\n{}{hanging}{}", &text[..from], &text[to..]);
+    let text = tow.hanging();
     let mut world = started(&text);
     let (found, force) = (world.body(0).unwrap().position, world.attachment(0).unwrap().0.norm());
     println!("{stream} {length} {fish_mass}: {place} {tension} found {found} {force}");
@@ -183,6 +187,105 @@ fn a_towed_fish_starts_where_the_stream_holds_it() {
     let moved = (world.body(0).unwrap().position - found).norm();
     println!("moves by {moved:e}");
     assert!(moved < 1e-5 * length, "{moved:e}");
+}
+
+/// Drawn hanging, a fish is found in every stream, on short and long wires, light and heavy.
+///
+/// *Source.* As above.
+#[test]
+fn a_fish_that_is_drawn_hanging_is_found_in_fast_streams() {
+    let (mut missed, mut count, mut most) = (Vec::new(), 0, 0.0f64);
+    for length in [10.0, 60.0, 300.0] {
+        for stream in [0.3, 1.0, 2.5, 5.0, 10.0] {
+            for fish_mass in [20.0, 60.0, 400.0] {
+                for level in [None, Some(0.0)] {
+                    let (diameter, normal, tangential, ea, mass) = (0.01, 1.2, 0.02, 4e6, 0.3);
+                    let (fish_radius, fish_area) = (0.15, 0.02);
+                    let tow = Tow {
+                        stream,
+                        level,
+                        length,
+                        diameter,
+                        normal,
+                        tangential,
+                        ea,
+                        mass,
+                        fish_mass,
+                        fish_radius,
+                        fish_area,
+                    };
+                    let (way, tension) = tow.solve();
+                    let place = way[way.len() - 1];
+                    // a fish that comes out of the water is not what the equation knows
+                    if level.is_some() && place.y > -fish_radius {
+                        continue;
+                    }
+                    let mut world = World::build(&parsed(&tow.hanging()).unwrap()).unwrap();
+                    count += 1;
+                    let what = format!("{stream} m/s, {length} m, {fish_mass} kg, level {level:?}");
+                    if let Err(error) = world.start(Purpose::Run) {
+                        println!("{what}: {error}");
+                        missed.push(what);
+                        continue;
+                    }
+                    let (found, force) = (world.body(0).unwrap().position, world.attachment(0).unwrap().0.norm());
+                    let off = ((found - place).norm() / length).max((force / tension - 1.0).abs());
+                    println!("{what}: off by {off:.1e}");
+                    most = most.max(off);
+                    if off > 2e-3 {
+                        missed.push(format!("{what}: {found} {place} {force} {tension}"));
+                    }
+                }
+            }
+        }
+    }
+    println!("{} of {count} missed, off by {most:.1e} at most", missed.len());
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// A line that is drawn hanging with a free end streams straight, at the angle at which its weight balances the drag across it, in every stream.
+///
+/// *Source.* Analytic (Pode 1951): w cos(a) = 1/2 rho d C_n U^2 sin^2(a), with the angle a to the stream; the tension at the ship is
+/// L (w sin(a) + 1/2 rho d C_t U^2 cos^2(a)).
+#[test]
+fn a_free_line_streams_at_its_critical_angle() {
+    let (d, normal, tangential, mass) = (0.01, 1.2, 0.02, 0.3);
+    let area = PI / 4.0 * d * d;
+    let w = (mass - RHO * area) * G;
+    let mut missed = Vec::new();
+    for length in [10.0, 60.0, 300.0] {
+        for stream in [0.3, 1.0, 2.5, 5.0, 10.0] {
+            let text = format!(
+                "duration = 1.0\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [0.0, {:?}, 0.0]]\nelements = 20\n\
+                 axial_stiffness = 4e6\nbending_stiffness = 0.01\nmass_per_length = {mass}\ninitial = \"equilibrium\"\n\
+                 [cable.drag]\nfluid_density = {RHO}\nflow = [{stream:?}, 0.0, 0.0]\nnormal = {normal}\ntangential = {tangential}\n\
+                 diameter = {d}\n[cable.buoyancy]\nfluid_density = {RHO}\narea = {area:e}\n\
+                 [[attachment]]\nname = \"ship\"\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n",
+                -length
+            );
+            let k = 0.5 * RHO * d * stream * stream;
+            // sin^2 = 1 - cos^2: k C_n c^2 + w c - k C_n = 0
+            let kn = k * normal;
+            let cosine = (-w + (w * w + 4.0 * kn * kn).sqrt()) / (2.0 * kn);
+            let sine = (1.0 - cosine * cosine).sqrt();
+            let place = Vector3::new(cosine, -sine, 0.0) * length;
+            let tension = length * (w * sine + k * tangential * cosine * cosine);
+            let mut world = World::build(&parsed(&text).unwrap()).unwrap();
+            let what = format!("{stream} m/s, {length} m");
+            if let Err(error) = world.start(Purpose::Run) {
+                missed.push(format!("{what}: {error}"));
+                continue;
+            }
+            let found = world.cables()[0].sample(length).unwrap().position;
+            let force = world.attachment(0).unwrap().0.norm();
+            let off = ((found - place).norm() / length).max((force / tension - 1.0).abs());
+            println!("{what}: off by {off:.1e}");
+            if off > 1e-3 {
+                missed.push(format!("{what}: {found} {place} {force} {tension}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
 }
 
 /// The buoy of the scenes floats at its draught on its mooring, and moves by less than 2e-6 m in 10 s of a current of 0.2 m/s without waves, where

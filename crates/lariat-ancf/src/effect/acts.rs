@@ -186,6 +186,10 @@ pub(crate) trait PointForce: Clone + Debug {
 
     /// Makes it steady from now on: as it is at `time` (s).
     fn hold(&mut self, time: f64);
+
+    /// Multiplies what it [drives](Self::drives) with by a share, as the velocity of a flow, once
+    /// it is held. Default: nothing drives.
+    fn drive_by(&mut self, _share: f64) {}
 }
 
 /// The tables of an effect that does not act in a place.

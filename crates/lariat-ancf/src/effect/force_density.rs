@@ -165,6 +165,7 @@ impl ForceDensities {
             origin: 0.0,
             points: gauss_legendre(POINTS),
             held: None,
+            share: 1.0,
             not_finite: None,
         })
     }
@@ -206,6 +207,8 @@ pub(crate) struct ForceDensityTable {
     points: Vec<(f64, f64)>,
     /// The time in s at which all forces are held, if they are.
     held: Option<f64>,
+    /// The share of all forces that acts.
+    share: f64,
     /// The first element of the last evaluation where a force or a derivative was not finite.
     not_finite: Option<usize>,
 }
@@ -272,7 +275,8 @@ impl ForceDensityTable {
     }
 
     fn force(&self, point: &Point, time: f64, position: Vector3<f64>, velocity: Vector3<f64>) -> Vector3<f64> {
-        self.attached.iter().map(|a| a.force.force(&self.at(point, a, time, position, velocity))).sum()
+        let of = |a: &Attached| a.force.force(&self.at(point, a, time, position, velocity));
+        self.attached.iter().map(of).sum::<Vector3<f64>>() * self.share
     }
 
     fn derivatives(
@@ -290,6 +294,7 @@ impl ForceDensityTable {
             sum.position += one.position;
             sum.velocity += one.velocity;
         }
+        (sum.position, sum.velocity) = (sum.position * self.share, sum.velocity * self.share);
         sum
     }
 }
@@ -362,5 +367,9 @@ impl PointForce for ForceDensityTable {
 
     fn hold(&mut self, time: f64) {
         self.held = Some(time);
+    }
+
+    fn drive_by(&mut self, share: f64) {
+        self.share = share;
     }
 }

@@ -231,6 +231,11 @@ macro_rules! generate {
             pub fn hold(&mut self, time: f64) {
                 $(if let Some(table) = &mut self.$field { table.hold(time); })*
             }
+
+            /// Multiplies what drives by a share.
+            pub fn drive_by(&mut self, share: f64) {
+                $(if let Some(table) = &mut self.$field { table.drive_by(share); })*
+            }
         }
 
         /// Constant generalised forces of effects; empty for those that have none.

@@ -199,3 +199,21 @@ pub(crate) const PULLS: f64 = 10.0;
 /// Levers of bodies below this share of the longest cable are none. Derived: single precision, in
 /// which Rapier has the positions of bodies and their anchors.
 pub(crate) const LEVER_ROUNDING: f64 = f32::EPSILON as f64;
+
+/// First share of what drives a shape. Unknown: doubled where it converges, twice.
+pub(crate) const FIRST_SHARE: f64 = 0.25;
+
+/// Smallest change of it. Unknown: six halvings of the first.
+pub(crate) const LEAST_SHARE: f64 = 1.0 / 256.0;
+
+/// Most products of the matrix of statics in a flow with a vector, in one iteration. Unknown: it
+/// bounds the cost.
+pub(crate) const MOST_PRODUCTS: usize = 40;
+
+/// Residual of its equations, as a share of the right side, that is small. Unknown: an iteration
+/// then gains as many digits.
+pub(crate) const PRODUCTS_CONVERGED: f64 = 1e-4;
+
+/// Displacement by which a product is taken, as a share of the length. Derived: between the square
+/// root of rounding, 1e-8, and what bends a stiff element.
+pub(crate) const PRODUCT_DISPLACEMENT: f64 = 1e-7;

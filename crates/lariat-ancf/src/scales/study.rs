@@ -103,3 +103,15 @@ pub(crate) const SECOND: f64 = 4.0;
 
 /// Most halvings of the host step. Unknown: it bounds the cost, at 64 times the first run.
 pub(crate) const MOST_HALVINGS: u32 = 6;
+
+/// Largest value of a cable over that of all, which its errors are shares of at least. Unknown:
+/// what a cable carries that hangs slack beside others is rounding.
+pub(crate) const LEAST_LARGEST: f64 = 1e-6;
+
+/// Largest error of positions over the length of a cable that an error of what it carries counts
+/// as. Unknown: steps of a larger one follow no motion.
+pub(crate) const MOST_LENGTH: f64 = 1e-3;
+
+/// By how much the order of two distances between tensions or moments of equilibria may be too
+/// high. Unknown: half of what parts the order of one that is smooth from that of one with kinks.
+pub(crate) const SURE: f64 = 0.5;

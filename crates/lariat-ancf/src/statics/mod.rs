@@ -11,8 +11,8 @@
 //!
 //! In a flow there is no potential energy to minimise: the search of an [island](crate::island)
 //! without bodies, and, for a cable that it does not bring to rest and that touches nothing,
-//! `rest_in_flow`. With contact, the law of contact is made harder from search to search
-//! (`continuation`).
+//! `rest_in_flow`; where neither finds a shape, the flow grows from none (`driven`). With contact,
+//! the law of contact is made harder from search to search (`continuation`).
 //!
 //! A shape with [folded elements](folds) is straightened once and minimised again; if it folds
 //! again the attempt has failed. A small residual is not enough: the increments of Newton's method
@@ -33,6 +33,7 @@
 
 mod attempt;
 mod continuation;
+mod driven;
 mod dynamic_relaxation;
 mod folds;
 mod load_ramp;
@@ -46,6 +47,7 @@ mod start_shape;
 pub(crate) use attempt::{Budget, Failure};
 pub use attempt::{EquilibriumOptions, EquilibriumReport};
 pub(crate) use continuation::{Continued, find};
+pub(crate) use driven::in_shares;
 pub(crate) use folds::{first_fold, straighten};
 pub(crate) use potential::potential;
 pub(crate) use start_shape::{lay_out, move_with_supports};

@@ -1,5 +1,6 @@
 //! What a study returns.
 
+use super::target::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// How a study ended.
@@ -19,15 +20,19 @@ pub enum Outcome {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Claim {
-    /// Error that was asked for in m.
-    pub asked_m: f64,
+    /// Error of positions that was asked for in m; `None` if it is one of [forces](Self::forces).
+    pub asked_m: Option<f64>,
     /// Bound of the error of all recorded positions at all recorded times in m; `None` if none is
     /// proven.
     pub claimed_m: Option<f64>,
     /// Estimate of the error of the mesh in m; `None` if the last meshes could not be compared.
     pub mesh_m: Option<f64>,
-    /// Estimate of the error in time in m; 0 for an equilibrium.
-    pub time_m: f64,
+    /// Estimate of the error in time in m; 0 for an equilibrium, `None` for one of
+    /// [forces](Self::forces).
+    pub time_m: Option<f64>,
+    /// What is claimed about tensions or moments, if they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForceClaim>,
     /// How the study ended.
     pub outcome: Outcome,
     /// If no error is proven for the whole motion: first recorded time in s at which the asked one
@@ -58,6 +63,26 @@ pub struct Claim {
     pub cost: f64,
 }
 
+/// What is claimed about tensions or moments, at the nodes that are held, loaded or ends, and about
+/// the largest along each cable, at all recorded times.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ForceClaim {
+    /// Of what.
+    pub quantity: Quantity,
+    /// Whether errors are shares of the largest value of the same cable in the run; else they are
+    /// in N or N m.
+    pub relative: bool,
+    /// Error that was asked for.
+    pub asked: f64,
+    /// Bound of the error; `None` if none is proven.
+    pub claimed: Option<f64>,
+    /// Estimate of the error of the mesh; `None` if the last meshes could not be compared.
+    pub mesh: Option<f64>,
+    /// Estimate of the error in time; 0 for an equilibrium.
+    pub time: f64,
+}
+
 fn one() -> u32 {
     1
 }
@@ -76,9 +101,9 @@ pub struct Proof<W> {
 #[non_exhaustive]
 pub enum StudyError<E> {
     /// An error that cannot be asked for.
-    #[error("error {value} m; accepted: a finite number > 0")]
+    #[error("error {value}; accepted: a finite number > 0")]
     InvalidError {
-        /// The value in m.
+        /// The value in m, N, N m or as a share.
         value: f64,
     },
     /// Duration and host step that give no number of host steps.

@@ -70,7 +70,7 @@ impl<F> Runs<F> {
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
         let allowed = SHARE[0] * self.error;
-        let tolerance = LOOSER.powi(AT_LEAST as i32) * self.error / (4.0 * span.steps);
+        let tolerance = LOOSER.powi(AT_LEAST as i32) * self.length / (4.0 * span.steps);
         let mut time = Time { tolerance: Some(tolerance), halvings: Some(0), ..Time::default() };
         let mut fine: Run<W> = self.run(time.resolution(2 * first))?;
         let mut differences = Vec::new();

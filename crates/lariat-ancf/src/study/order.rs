@@ -87,6 +87,11 @@ pub(super) fn shown_by_both(differences: &[Difference], indicated: Option<f64>) 
     observed(tail(differences, 2)).zip(indicated).map(|(seen, indicated)| seen.min(indicated))
 }
 
+/// Returns the order that the last two distances show.
+pub(super) fn shown(differences: &[Difference]) -> Option<f64> {
+    observed(tail(differences, 2))
+}
+
 /// Returns the last of several distances, at most `count`.
 pub(super) fn tail(differences: &[Difference], count: usize) -> &[Difference] {
     &differences[differences.len().saturating_sub(count)..]

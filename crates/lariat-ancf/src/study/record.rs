@@ -1,9 +1,12 @@
 //! What a run of a study records: positions by time, and the meshes and the work of its cables.
 
 use super::StudyError;
+use super::forces::{Forces, SharpBend};
+use super::target::{Quantity, Target};
+use crate::Sample;
 use crate::cable::Cable;
 use crate::point::Point;
-use crate::scales::study::{INDICATED, INDICATOR_ROUNDING, KINKS, RECORDED, SMOOTH};
+use crate::scales::study::{INDICATED, INDICATOR_ROUNDING, KINKS, RECORDED, SMOOTH, SURE};
 use nalgebra::Vector3;
 
 /// The positions that a run recorded.
@@ -25,6 +28,11 @@ pub struct Record {
     /// of several sections.
     held: bool,
     kinked: bool,
+    /// What is asked for, and what cables carry if it is no position.
+    target: Target,
+    forces: Forces,
+    /// Number of elements that the first mesh is to have, if the world says so.
+    first: Option<usize>,
 }
 
 /// Mesh and work of a cable.
@@ -37,10 +45,16 @@ struct CableRecord {
 }
 
 impl Record {
+    /// Returns an empty record of a run that a target is asked of.
+    pub(super) fn of(target: Target) -> Self {
+        Record { target, ..Record::default() }
+    }
+
     /// Begins a frame at a time in s; what is recorded next belongs to it.
     pub fn frame(&mut self, time: f64) -> &mut Self {
         self.times.push(time);
         self.ends.push(self.points.len());
+        self.forces.frame();
         self.present = 0;
         self
     }
@@ -66,6 +80,9 @@ impl Record {
                 self.cables.push(CableRecord { nodes, steps, evaluations });
             }
         }
+        if self.carries() {
+            self.forces.cable(self.present, cable, self.target.quantity);
+        }
         self.present += 1;
         self.indicator = self.indicator.max(cable.mesh_indicator().position);
         for k in 0..RECORDED {
@@ -81,6 +98,44 @@ impl Record {
     pub fn point(&mut self, position: impl Into<Point>) -> &mut Self {
         self.push(position.into().0);
         self
+    }
+
+    /// Records what a cable carries where it is read, in the order of [`cable`](Self::cable): if an
+    /// error of tensions or moments is asked for.
+    pub fn sample(&mut self, cable: usize, sample: &Sample) -> &mut Self {
+        if self.carries() {
+            self.forces.sample(cable, sample, self.target.quantity);
+        }
+        self
+    }
+
+    /// Tells with how many elements the first mesh begins, in place of 4: in the first run of a
+    /// study of tensions or moments, by which a world chooses where its meshes are fine.
+    pub fn begin_with(&mut self, elements: usize) -> &mut Self {
+        self.first = Some(elements);
+        self
+    }
+
+    /// Returns where a cable, in the order of [`cable`](Self::cable), bends within a piece that is
+    /// shorter than its elements; nothing in a study of positions.
+    pub fn sharp_bends(&self, cable: usize) -> &[SharpBend] {
+        self.forces.bends(cable)
+    }
+
+    /// Returns with how many elements the first mesh begins.
+    pub(super) fn first_elements(&self) -> Option<usize> {
+        self.first
+    }
+
+    /// Returns the error of positions in m that has the error that is asked for as its
+    /// consequence.
+    pub(super) fn as_position(&self) -> Option<f64> {
+        self.forces.as_position(&self.target)
+    }
+
+    /// Returns whether what cables carry is compared.
+    pub(super) fn carries(&self) -> bool {
+        self.target.quantity != Quantity::Position
     }
 
     fn push(&mut self, position: Vector3<f64>) {
@@ -119,6 +174,9 @@ impl Record {
     /// lengths shorter by `ratio`; `None` for cables whose indicator is rounding, as that of
     /// straight ones.
     pub(super) fn indicated_order(&self, finer: &Record, ratio: f64) -> Option<f64> {
+        if self.carries() {
+            return None;
+        }
         let order = (self.indicator / finer.indicator).ln() / ratio.ln();
         Some(order).filter(|order| order.is_finite() && finer.indicator > INDICATOR_ROUNDING * finer.longest())
     }
@@ -127,6 +185,9 @@ impl Record {
     /// number of distances between meshes, of which one shows no order; `seen` is the least that
     /// distances and indicator both show, of one distance that of the indicator.
     pub(super) fn largest_order(&self, equilibrium: bool, distances: usize, seen: Option<f64>) -> f64 {
+        if equilibrium && self.carries() {
+            return seen.map_or(1.0, |seen| (seen - SURE).clamp(KINKS, SMOOTH));
+        }
         let smooth = equilibrium && !self.held && !self.kinked && !self.jumps;
         match seen {
             Some(seen) if smooth && distances == 1 => seen.clamp(KINKS, SMOOTH),
@@ -142,9 +203,24 @@ impl Record {
         INDICATED * self.indicator
     }
 
-    /// Returns the largest distance between the points of two runs at a frame in m; infinite if
+    /// Returns the largest difference of two runs at a frame, of what is asked for; infinite if
     /// they have not the same parts, or are not numbers.
     fn apart(&self, other: &Record, frame: usize) -> f64 {
+        match self.carries() {
+            true => self.forces.apart(&other.forces, frame, self.target.relative),
+            false => self.positions_apart(other, frame),
+        }
+    }
+
+    /// Returns the largest distance between the points of two runs in m.
+    pub(super) fn largest_distance(&self, other: &Record) -> f64 {
+        let frames = 0..self.times.len().min(other.times.len());
+        frames.map(|frame| self.positions_apart(other, frame)).fold(0.0, f64::max)
+    }
+
+    /// Returns the largest distance between the points of two runs at a frame in m; infinite if
+    /// they have not the same parts, or are not numbers.
+    fn positions_apart(&self, other: &Record, frame: usize) -> f64 {
         let points = |record: &Record| {
             let start = frame.checked_sub(1).map_or(0, |before| record.ends[before]);
             start..record.ends[frame]
@@ -165,7 +241,7 @@ impl Record {
         })
     }
 
-    /// Returns the largest distance between two runs in m.
+    /// Returns the largest difference of two runs, of what is asked for.
     ///
     /// # Errors
     /// [`StudyError::DifferentTimes`].
@@ -183,7 +259,7 @@ impl Record {
         Ok(largest)
     }
 
-    /// Returns the first time in s at which two runs are further apart than a distance in m.
+    /// Returns the first time in s at which two runs differ by more than `distance`.
     pub(super) fn first_beyond(&self, other: &Record, distance: f64) -> Option<f64> {
         let frames = 0..self.times.len().min(other.times.len());
         frames.into_iter().find(|&frame| self.apart(other, frame) > distance).map(|frame| self.times[frame])

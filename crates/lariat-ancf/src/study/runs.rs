@@ -2,6 +2,7 @@
 
 use super::claim::StudyError;
 use super::record::Record;
+use super::target::Target;
 use crate::integrate::{ErrorNorm, Integrator, Method, StepControl};
 
 /// The mesh and the tolerance of a run of a [`Study`](super::Study).
@@ -40,6 +41,9 @@ impl Resolution {
     /// steps; where the study is coupled [`Integrator::COUPLED`] with the tolerance; for an
     /// equilibrium the default one.
     pub fn integrator(&self) -> Integrator {
+        if let (true, None, None) = (self.coupled, self.tolerance, self.max_step) {
+            return Integrator::COUPLED;
+        }
         if let (true, Some(tolerance)) = (self.coupled, self.tolerance) {
             return Integrator {
                 control: StepControl::ToleranceOf(tolerance, ErrorNorm::Bodies),
@@ -70,7 +74,11 @@ pub(super) struct Run<W> {
 /// The runs so far.
 pub(super) struct Runs<F> {
     pub(super) run: F,
+    /// What is asked for, and its error.
+    pub(super) target: Target,
     pub(super) error: f64,
+    /// That error as one of positions in m, from which tolerances begin.
+    pub(super) length: f64,
     pub(super) span: Option<Span>,
     /// Whether the world has what only the discrete gradient steps.
     pub(super) coupled: bool,
@@ -79,12 +87,18 @@ pub(super) struct Runs<F> {
 }
 
 impl<F> Runs<F> {
+    /// Returns the error of what is asked for that an error of positions in m has as its
+    /// consequence.
+    pub(super) fn of_length(&self, length: f64) -> f64 {
+        if self.length == self.error { length } else { length * (self.error / self.length) }
+    }
+
     /// Runs the world at a resolution.
     pub(super) fn run<W, E>(&mut self, resolution: Resolution) -> Result<Run<W>, StudyError<E>>
     where
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
-        let mut record = Record::default();
+        let mut record = Record::of(self.target);
         let Resolution { elements, tolerance, .. } = resolution;
         self.count += 1;
         let failed = |source| StudyError::Run { elements, tolerance, source };

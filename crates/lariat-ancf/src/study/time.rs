@@ -75,7 +75,7 @@ impl<F> Runs<F> {
     {
         let at = |elements, tolerance| Resolution { elements, tolerance: Some(tolerance), ..Resolution::default() };
         let [allowed, aim] = SHARE.map(|share| share * self.error);
-        let (mut tau, mut looser, mut before) = (self.error / (4.0 * span.steps), LOOSER, f64::INFINITY);
+        let (mut tau, mut looser, mut before) = (self.length / (4.0 * span.steps), LOOSER, f64::INFINITY);
         let mut fine = self.run(at(2 * first, tau))?;
         // no tolerance has fewer steps than the host: a looser one says nothing where this one has
         // hardly more
@@ -95,13 +95,13 @@ impl<F> Runs<F> {
             let limited = ratio < looser.powf(0.25);
             let error = if limited {
                 let coarse = self.run(at(first, tau))?;
-                let error = self.in_equal_steps(&coarse, &fine, span)? + tau;
+                let error = self.in_equal_steps(&coarse, &fine, span)? + self.of_length(tau);
                 if error <= allowed {
                     return Ok((coarse, fine, Time { error, ..time }));
                 }
                 error
             } else {
-                (distance / (looser.sqrt() - 1.0)).max(span.steps * tau)
+                (distance / (looser.sqrt() - 1.0)).max(self.of_length(span.steps * tau))
             };
             // a difference that is not finite says nothing about the tolerance: the meshes are
             // compared, and do not agree

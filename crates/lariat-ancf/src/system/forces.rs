@@ -109,6 +109,16 @@ impl Forces {
         }
     }
 
+    /// Makes all forces steady as [`hold`](Self::hold) does, with a share of what drives them.
+    pub fn hold_share(&mut self, model: &Model, time: f64, share: f64) {
+        self.release(model);
+        self.hold(time);
+        self.at_points.drive_by(share);
+        if let Some(densities) = &mut self.densities {
+            densities.drive_by(share);
+        }
+    }
+
     /// Ends what [`hold`](Self::hold) began.
     pub fn release(&mut self, model: &Model) {
         self.at_points = model.effects.at_points(&model.target());

@@ -173,7 +173,7 @@ impl Study {
         let mut rows = Vec::new();
         let mut studies = Vec::new();
         for &error in errors {
-            let mut options = run::Options { error: Some(error), ..run::Options::default() };
+            let mut options = run::Options { error: Some(error.into()), ..run::Options::default() };
             match run::collect(&self.scene, self.purpose, &mut options) {
                 Ok(recording) => match recording.summary.error {
                     Some(claim) => studies.push((error, claim.claim, recording.summary.element_evaluations)),

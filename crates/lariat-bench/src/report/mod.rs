@@ -14,6 +14,7 @@
 //! | [`catenary`] | static catenary | largest distance along the cable | the same law by shooting, [`catenary_reference`] |
 //! | [`model_error`] | errors of T1, T2 and mean strain, separated from those of the mesh | tip distances | `pendulum_converged_tip.csv` |
 //! | [`claims`] | the scenes of assets/scenes: errors of mesh and time, and the cost of an error that is asked for | largest distance of cables and bodies at host times | twice the elements and a quarter of the tolerance |
+//! | [`forces`] | moments that are asked for at clamps; kinks at a point load | moments; largest distance of five points | beam under tension; catenaries and fine meshes |
 //! | [`thrown`] | thrown cables in fidelity game, and a minute of the pendulum: energy law, constant cost | | the energy law, read from the outside |
 //! | [`contact`] | the scenes of assets/contact | tensions, accelerations, depths, energy | formulas and bounds, derived there |
 //! | [`effects`], [`effect_cases`] | cost of an element and of each effect | | |
@@ -31,6 +32,7 @@ pub mod contact;
 pub mod coupling;
 pub mod effect_cases;
 pub mod effects;
+pub mod forces;
 pub mod model_error;
 pub mod options;
 pub mod payload;
@@ -163,6 +165,7 @@ pub fn run(out: &Path, options: &Options, progress: &mut dyn FnMut(Progress<'_>)
     recorder.record(0, cheapest::TITLE, |o| plain(cheapest::section(o, &scenes)))?;
     recorder.record(last, model_error::TITLE, |o| plain(model_error::section(o)))?;
     recorder.record(last, claims::TITLE, |o| plain(claims::section(o)))?;
+    recorder.record(last, forces::TITLE, |o| plain(forces::section(o)))?;
     recorder.record(last, thrown::TITLE, |o| plain(thrown::section(o)))?;
     recorder.record(last, contact::TITLE, |o| plain(contact::section(o)))?;
     recorder.record(last, effects::TITLE, |o| plain(effects::section(o)))?;

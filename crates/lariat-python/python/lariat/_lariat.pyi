@@ -833,7 +833,7 @@ def run_scene(
     overrides: list[str],
     *,
     statics: bool = False,
-    error: float | None = None,
+    error: float | str | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[dict[str, Any], Mapping[str, tuple[list[str], Array]], Any, Recorded]: ...
 def sweep_check(file: str, text: str, points: list[list[str]]) -> None: ...

@@ -197,7 +197,7 @@ class _Bar:
             self._bar.close()
 
 
-def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool, progress: bool, error: float | None) -> Run:
+def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool, progress: bool, error: float | str | None) -> Run:
     name, text = source(scene)
     given = overrides(settings)
     total = _duration(text, settings)
@@ -233,13 +233,14 @@ def run(
     scene: SceneLike,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
-    error: float | None = None,
+    error: float | str | None = None,
     progress: bool = True,
 ) -> Run:
     """Runs a scene for its duration.
 
     With ``error``, in m, elements and integrator of the scene are chosen so that no position is off by more, and several runs prove it:
-    ``summary["error"]`` has the claim, its parts and ``outcome``, which is ``"proven"`` or says why not.
+    ``summary["error"]`` has the claim, its parts and ``outcome``, which is ``"proven"`` or says why not. A text asks for tensions or moments:
+    ``"tension=1%"``, ``"tension=50N"``, ``"moment=5%"``, ``"moment=2Nm"``, at ends, held and loaded points and the largest of each cable.
 
     ``set`` overrides keys, as ``{"cable.sling.elements": 20}``. Progress is shown by tqdm if it is installed and the run takes longer than a second.
 
@@ -255,7 +256,7 @@ def statics(
     scene: SceneLike,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
-    error: float | None = None,
+    error: float | str | None = None,
 ) -> Run:
     """Finds the static equilibrium of a scene; probes then have one sample each, at t = 0. ``error`` is as of ``run``.
 

@@ -174,7 +174,7 @@ fn is_nearer(one: &Vector3<f64>, other: &Vector3<f64>, target: &Vector3<f64>) ->
 }
 
 /// Checks that no attachment and no junction has the node at a point of a cable.
-fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
+pub(crate) fn check_free(contents: &Contents, cable: CableHandle, at: At) -> Result<(), Error> {
     let existing = contents.cable(cable)?;
     let Ok(node) = existing.node(at) else { return Ok(()) };
     let attached = contents.attachments.values().map(|a| (a.cable, a.node));

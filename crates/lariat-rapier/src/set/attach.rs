@@ -3,7 +3,7 @@
 use super::{CableSet, slack};
 use crate::contents::attachment::{Attachment, AttachmentOptions, Gap};
 use crate::contents::junction::Junction;
-use crate::edit::{attach, join, movement, world_mark};
+use crate::edit::{attach, join, kink, movement, world_mark};
 use crate::error::Error;
 use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use lariat_ancf::{At, Point};
@@ -126,6 +126,21 @@ impl CableSet {
         gap: Gap,
     ) -> Result<JunctionHandle, Error> {
         join::join(&mut self.contents, (first.0, first.1.into()), (second.0, second.1.into()), gap)
+    }
+
+    /// Frees the slope of a cable at a point between its ends, on both sides, as a hinge does:
+    /// where a point load or a junction bends a cable that is limp, `sqrt(EI/T)` far below an
+    /// element, so that the mesh, which is smooth, would round the corner and positions converge
+    /// with the first order. The cable becomes two that share the point; `cable` keeps the part
+    /// before it, with a load there. Returns the handle of the other part and the junction of both,
+    /// to whose node other cables can be [joined](Self::join). No moment and no torque goes through
+    /// it.
+    ///
+    /// # Errors
+    /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a point that is attached or part of a
+    /// junction; [`Error::Cable`] for a point that is not between the ends.
+    pub fn add_kink(&mut self, cable: CableHandle, at: impl Into<At>) -> Result<(CableHandle, JunctionHandle), Error> {
+        kink::kink(&mut self.contents, cable, at.into())
     }
 
     /// Unties a cable from a junction; a junction with a single node left ends.

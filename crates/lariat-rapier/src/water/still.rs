@@ -40,4 +40,10 @@ impl PlacedLoad for StillWater {
         }
         stiffness
     }
+
+    fn driven_by(&self, share: f64) -> Option<Box<dyn PlacedLoad>> {
+        let mut slower = self.clone();
+        slower.water.flow.velocity *= share;
+        Some(Box::new(slower))
+    }
 }

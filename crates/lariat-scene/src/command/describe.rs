@@ -1,6 +1,7 @@
 //! Results as text for a terminal.
 
 use crate::run::{BodyStatics, CableStatics, Summary};
+use lariat_ancf::study::{ForceClaim, Target};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -40,22 +41,36 @@ pub fn statics(summary: &Summary, folder: &Path) -> String {
 fn claim(summary: &Summary) -> String {
     let Some(error) = &summary.error else { return String::new() };
     let claim = &error.claim;
-    let verdict = match (claim.claimed_m, claim.horizon_s) {
-        (Some(claimed), _) => format!("error of positions at most {claimed:.1e} m"),
-        (None, Some(time)) => format!(
-            "error of positions at most {:e} m before {} s, not proven from then on",
-            claim.asked_m,
-            short(time)
+    let (target, claimed, mesh, time) = match &claim.forces {
+        Some(ForceClaim { quantity, relative, asked, claimed, mesh, time, .. }) => {
+            (Target { quantity: *quantity, error: *asked, relative: *relative }, *claimed, *mesh, *time)
+        }
+        None => (
+            Target::from(claim.asked_m.unwrap_or(f64::NAN)),
+            claim.claimed_m,
+            claim.mesh_m,
+            claim.time_m.unwrap_or(0.0),
         ),
-        (None, None) => format!("error of {:e} m not proven", claim.asked_m),
     };
-    let mesh = claim.mesh_m.map_or("not known".to_string(), |mesh| format!("{mesh:.1e} m"));
+    let (of, asked) = (target.quantity, target.text(target.error));
+    let text = |error: f64| match target.relative {
+        true => format!("{:.1e} %", 100.0 * error),
+        false => format!("{error:.1e} {}", target.unit()),
+    };
+    let verdict = match (claimed, claim.horizon_s) {
+        (Some(claimed), _) => format!("error of {of} at most {}", text(claimed)),
+        (None, Some(until)) => {
+            format!("error of {of} at most {asked} before {} s, not proven from then on", short(until))
+        }
+        (None, None) => format!("error of {asked} not proven"),
+    };
+    let mesh = mesh.map_or("not known".to_string(), text);
     let elements: Vec<String> = error.elements_of.iter().map(|(name, n)| format!("{name:?} {n}")).collect();
     let tolerance = claim.tolerance_m.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.1e} m"));
     let parts = if claim.parts > 1 { format!(", host steps in {} parts", claim.parts) } else { String::new() };
     format!(
-        "{verdict} (mesh {mesh}, time {:.1e} m{})\n  elements {}{tolerance}{parts}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
-        claim.time_m,
+        "{verdict} (mesh {mesh}, time {}{})\n  elements {}{tolerance}{parts}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
+        text(time),
         if claim.host_step_limits { ": the host step limits the steps" } else { "" },
         elements.join(", "),
         claim.runs,

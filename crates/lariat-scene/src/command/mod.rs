@@ -15,7 +15,7 @@ use crate::run::{self, Options, State, Summary};
 use crate::{Error, Purpose, Scene};
 use clap::{Args, Parser, Subcommand};
 use lariat_ancf::Level;
-use lariat_ancf::study::Resolution;
+use lariat_ancf::study::{Resolution, Target};
 use std::cell::RefCell;
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -80,9 +80,10 @@ struct SceneArguments {
     /// Override a key, such as cable.sling.elements=20; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Choose elements and integrator so that no position is off by more than this, in m, and prove it by runs with several meshes
-    #[arg(long, value_name = "METRES")]
-    error: Option<f64>,
+    /// Choose elements and integrator so that no position is off by more than this, in m, and prove it by runs with several meshes;
+    /// or no tension or moment at ends and held and loaded points (tension=1%, tension=50N, moment=5%, moment=2Nm)
+    #[arg(long, value_name = "METRES|QUANTITY=AMOUNT")]
+    error: Option<Target>,
     /// Tell warnings up to this level: setup (not what is meant), wrong (a result that is off) or coarse (mesh and steps). Default:
     /// coarse, of cables with fidelity game wrong
     #[arg(long, value_name = "LEVEL")]

@@ -1,5 +1,6 @@
 //! Runs of a scene to a given error.
 
+use super::fine::Meshes;
 use super::output::Output;
 use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
@@ -7,7 +8,7 @@ use crate::scene::body::{BodyKind, BodyScene};
 use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::Vector3;
-use lariat_ancf::study::{Claim, Outcome, Proof, Record, Resolution, Study, StudyError};
+use lariat_ancf::study::{Claim, Outcome, Proof, Record, Resolution, Study, StudyError, Target};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -18,6 +19,10 @@ const LEAST: f64 = 1e-8;
 /// Least error with Rapier's bodies, over their distance from the origin, which is counted as at least 1 m: 84 units in the last place of
 /// single precision.
 const LEAST_SINGLE: f64 = 1e-5;
+
+/// Least error of what cables carry, as a share: that to which statics and steps are solved; and with Rapier's bodies.
+const LEAST_SHARE: f64 = 1e-6;
+const LEAST_SHARE_SINGLE: f64 = 1e-4;
 
 /// What `summary.json` says about the error that was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,13 +60,32 @@ impl ErrorClaim {
         if purpose == Purpose::Static {
             not_covered.push("equilibria other than the one that all meshes found");
         }
-        let elements_of = scene.cables.iter().map(|cable| (cable.name.clone(), cable.elements)).collect();
+        let mut elements_of = BTreeMap::new();
+        for cable in &scene.cables {
+            // all parts of one
+            *elements_of.entry(cable.name.clone()).or_insert(0) += cable.elements;
+        }
         ErrorClaim { claim, elements_of, not_covered: not_covered.into_iter().map(String::from).collect() }
     }
 
     fn warning(&self) -> Option<Warning> {
-        let Claim { asked_m, outcome, horizon_s, other_branch, elements, elements_needed, .. } = self.claim;
-        let estimate_m = self.claim.mesh_m.map(|mesh| mesh + self.claim.time_m);
+        let Claim { outcome, horizon_s, other_branch, elements, elements_needed, .. } = self.claim;
+        if let Some(forces) = self.claim.forces.clone().filter(|_| outcome != Outcome::Proven) {
+            let (asked, quantity) = (forces.asked, forces.quantity);
+            let target = Target { quantity, error: asked, relative: forces.relative };
+            let estimate = forces.mesh.map(|mesh| mesh + forces.time);
+            let needed = elements_needed;
+            return Some(Warning::ForcesNotProven {
+                target,
+                estimate,
+                elements,
+                elements_needed: needed,
+                horizon_s,
+                other_branch,
+            });
+        }
+        let asked_m = self.claim.asked_m?;
+        let estimate_m = self.claim.mesh_m.zip(self.claim.time_m).map(|(mesh, time)| mesh + time);
         match outcome {
             Outcome::Proven => None,
             Outcome::NoConvergence => {
@@ -90,19 +114,21 @@ pub(super) fn conduct(
     scene: &Scene,
     open: Open<'_>,
     purpose: Purpose,
-    error: f64,
+    target: Target,
     options: &mut Options<'_>,
 ) -> Result<Recorded, Error> {
-    check(scene, error)?;
+    check(scene, target)?;
     // what hinders files is told before the first run, and the folder is held from then on; the rows of runs are kept until
     // it is known which of them is the result
     let files = open(scene)?;
     let in_memory = |scene: &Scene| Ok(Output::in_memory(scene));
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
+    let mut meshes: Option<Meshes> = None;
     let each = |resolution: &Resolution, record: &mut Record| -> Result<(Scene, Done), Stopped> {
         if let Some(pilot) = &mut options.pilot {
             pilot(resolution);
         }
+        let own = scene;
         let mut scene = scene.clone();
         for cable in &mut scene.cables {
             cable.elements = resolution.elements_of(cable.elements, largest);
@@ -114,20 +140,29 @@ pub(super) fn conduct(
                 cable.integrator = resolution.integrator().into();
             }
         }
+        if let Some(meshes) = &meshes {
+            meshes.give(&mut scene, resolution);
+        }
         divide(&mut scene, resolution.parts);
         let recorded = Some((&mut *record, resolution.parts));
         let done = simulate(&scene, &in_memory, purpose, options, recorded).map_err(Stopped::Before)?;
         if velocities_jump(&scene, &done) {
             record.velocities_jump();
         }
-        if done.outcome.is_err() { Err(Stopped::During(Box::new(done))) } else { Ok((scene, done)) }
+        if done.outcome.is_err() {
+            return Err(Stopped::During(Box::new(done)));
+        }
+        if target.of_positions().is_none() && meshes.is_none() {
+            meshes = Some(Meshes::chosen(own, record));
+        }
+        Ok((scene, done))
     };
     let study = match purpose {
         Purpose::Run | Purpose::Resume => Study::new(scene.duration, scene.dt, each),
         Purpose::Static => Study::of_equilibrium(each),
     };
     let limit = LIMIT.max(4 * largest);
-    match study.error(error).limit(limit).coupled(scene.is_coupled()).run() {
+    match study.error(target).limit(limit).coupled(scene.is_coupled()).run() {
         Ok(Proof { world: (scene, mut done), claim }) => {
             let claim = ErrorClaim::of(&scene, claim, purpose, velocities_jump(&scene, &done));
             done.output = done.output.move_to(&scene, files)?;
@@ -142,7 +177,7 @@ pub(super) fn conduct(
             Ok(done.finish(None))
         }
         Err(StudyError::Run { source: Stopped::Before(error), .. }) => Err(error),
-        Err(other) => Err(Error::Study { error, problem: described(&other) }),
+        Err(other) => Err(Error::Study { error: target.to_string(), problem: described(&other) }),
     }
 }
 
@@ -169,7 +204,8 @@ fn velocities_jump(scene: &Scene, done: &Done) -> bool {
 }
 
 /// Refuses an error that rounding does not allow to prove.
-fn check(scene: &Scene, error: f64) -> Result<(), Error> {
+fn check(scene: &Scene, target: Target) -> Result<(), Error> {
+    let error = target.error;
     let longest = scene.cables.iter().fold(0.0, |longest: f64, cable| longest.max(cable.length));
     let mut least = (LEAST * longest, "double precision");
     if scene.engine == Engine::Rapier {
@@ -181,8 +217,16 @@ fn check(scene: &Scene, error: f64) -> Result<(), Error> {
         let far = bodies.chain(cables).fold(1.0, |far: f64, p: Vector3<f64>| far.max(p.norm()));
         least = (least.0.max(LEAST_SINGLE * far), "the single precision of bodies");
     }
+    if target.of_positions().is_none() {
+        least.0 = match (target.relative, scene.engine == Engine::Rapier) {
+            (true, true) => LEAST_SHARE_SINGLE,
+            (true, false) => LEAST_SHARE,
+            (false, _) => f64::MIN_POSITIVE,
+        };
+    }
     if error >= least.0 && error.is_finite() {
         return Ok(());
     }
-    Err(Error::ErrorTooSmall { error, least: least.0, reason: least.1 })
+    let unit = target.unit();
+    Err(Error::ErrorTooSmall { error: target.to_string(), least: least.0, unit, reason: least.1 })
 }

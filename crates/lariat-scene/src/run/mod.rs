@@ -35,7 +35,9 @@
 
 mod balance;
 mod error_target;
+mod fine;
 mod folder;
+mod hinges;
 mod output;
 mod parts;
 mod pieces;
@@ -68,7 +70,7 @@ use crate::scene::body::BodyKind;
 use crate::scene::{Purpose, Scene, Target};
 use cpu_time::ProcessTime;
 use lariat_ancf::Level;
-use lariat_ancf::study::{Record, Resolution};
+use lariat_ancf::study::{Record, Resolution, Target as ErrorTarget};
 use output::{Extras, Kept, Output};
 use schedule::{Schedule, nominal};
 use std::path::Path;
@@ -89,9 +91,9 @@ pub struct Options<'a> {
     /// Up to which level warnings are told. Default: of each cable up to
     /// [`Cable::warn_level`](lariat_ancf::Cable::warn_level).
     pub warn_level: Option<Level>,
-    /// Error in m of all positions that is asked for: the scene is run with several meshes and tolerances, in place of its own `elements` and
+    /// Error that is asked for, of all positions in m (`Some(1e-3.into())`) or of tensions or moments: the scene is run with several meshes and tolerances, in place of its own `elements` and
     /// `integrator`, until two agree, and the results are those of the finest. See [`lariat_ancf::study`].
-    pub error: Option<f64>,
+    pub error: Option<ErrorTarget>,
     /// Called before each run of a scene that an error is asked of.
     pub pilot: Option<&'a mut dyn FnMut(&Resolution)>,
     /// Whether [`run`] and [`statics`] write `run.svg`, the motion as an animated picture, too.
@@ -137,7 +139,7 @@ fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Option
             let problem = "an error that is asked for changes the mesh, and the state has one".to_string();
             Err(Error::State { problem })
         }
-        Some(error) => error_target::conduct(scene, open, purpose, error, options),
+        Some(target) => error_target::conduct(scene, open, purpose, target, options),
         None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
     }
 }
@@ -266,7 +268,7 @@ fn simulate(
         note(&mut record, &world);
         output.frame(&world)
     });
-    let noted = watch.warnings(&world, options.error);
+    let noted = watch.warnings(&world, options.error.and_then(|target| target.of_positions()));
     world.warnings.extend(noted);
     tell(&mut world, options);
     let (cpu, wall, spent) = (cpu.elapsed(), wall.elapsed(), output.spent());
@@ -288,7 +290,7 @@ fn note(record: &mut Recorder<'_>, world: &World) {
             && let (part, s) = world.part(cable, arc_length)
             && let Ok(sample) = cables[part].sample(s)
         {
-            record.point(sample.position);
+            record.point(sample.position).sample(part, &sample);
         }
     }
     for (index, body) in world.scene.bodies.iter().enumerate() {

@@ -154,6 +154,18 @@ impl World {
     /// # Errors
     /// [`Error::Mechanics`] if the present state has no finite acceleration.
     pub fn attachment(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>, f64), Error> {
+        let (mut force, mut moment, mut gap) = self.one_side(index)?;
+        for other in 0..self.scene.attachments.len() {
+            if self.scene.attachments[other].other_side_of == Some(index) {
+                let side = self.one_side(other)?;
+                (force, moment, gap) = (force + side.0, moment + side.1, gap.max(side.2));
+            }
+        }
+        Ok((force, moment, gap))
+    }
+
+    /// Returns the same of one side of a kink.
+    fn one_side(&mut self, index: usize) -> Result<(Vector3<f64>, Vector3<f64>, f64), Error> {
         if let Some(physics) = &self.physics
             && let Some(reading) = physics.reading(index, self.time)?
         {
@@ -162,7 +174,8 @@ impl World {
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
         // a copy, because reading reactions modifies a cable, which wakes it
         let mut coupled = None;
-        let (part, arc_length) = self.part_of(cable, arc_length);
+        let behind_kink = self.scene.attachments[index].other_side_of.is_some();
+        let (part, arc_length) = if behind_kink { (cable, 0.0) } else { self.part_of(cable, arc_length) };
         let cable = match self.alone.get_mut(part) {
             Some(cable) => cable,
             None => coupled.insert(self.cables()[part].clone()),

@@ -132,6 +132,7 @@ fn parts(scene: &Scene) -> Vec<(String, String)> {
         attachments,
         joints,
         junctions,
+        kinks: _,
         sheaves,
         loads,
         body_loads,

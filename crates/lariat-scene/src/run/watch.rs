@@ -2,6 +2,7 @@
 
 use super::World;
 use super::balance::Account;
+use super::hinges::Hinge;
 use super::wheels::WheelWatch;
 use crate::error::Error;
 use crate::scene::Purpose;
@@ -12,6 +13,7 @@ use lariat_ancf::warning::balance::{EnergyBalance, Verdict};
 pub(super) struct Watch {
     cables: Vec<lariat_ancf::Watch>,
     wheels: Vec<WheelWatch>,
+    hinges: Vec<Hinge>,
     /// By sheave, when it was first found stopped.
     stopped: Vec<Option<f64>>,
     account: Account,
@@ -28,6 +30,7 @@ impl Watch {
         Watch {
             cables: world.cables().into_iter().zip(drawn).map(watch).collect(),
             wheels: WheelWatch::all(world),
+            hinges: Hinge::all(world),
             stopped: vec![None; world.scene.sheaves.len()],
             account: Account::default(),
         }
@@ -40,6 +43,7 @@ impl Watch {
     pub fn note(&mut self, world: &World) -> Result<(), Error> {
         self.account.note(world)?;
         self.wheels.iter_mut().for_each(|wheel| wheel.note(world));
+        self.hinges.iter_mut().for_each(|hinge| hinge.note(world));
         for (sheave, stopped) in self.stopped.iter_mut().enumerate() {
             *stopped = stopped.or(world.sheave_stopped(sheave).then(|| world.time()));
         }
@@ -69,6 +73,7 @@ impl Watch {
         let of_stops = self.stopped.iter().zip(&world.scene.sheaves).filter_map(|(stopped, sheave)| {
             stopped.map(|time_s| Warning::SheaveStopped { sheave: sheave.name.clone(), time_s })
         });
+        let of_hinges = self.hinges.iter().filter_map(|hinge| hinge.warning(world));
         let of_wheels = self.wheels.iter().filter_map(|wheel| wheel.warning(world));
         let of_gaps = world.physics.iter().flat_map(|physics| physics.open_gaps(&world.scene));
         let of_joints = world.physics.iter().flat_map(|physics| physics.unsettled(&world.scene));
@@ -76,6 +81,7 @@ impl Watch {
             .map(Warning::Cable)
             .chain(self.energy_warning(world))
             .chain(of_wheels)
+            .chain(of_hinges)
             .chain(of_stops)
             .chain(of_gaps)
             .chain(of_joints)

@@ -81,6 +81,8 @@ pub struct AttachmentScene {
     pub direction: Option<Vector3<f64>>,
     /// What to do if the cable point does not start at the anchor.
     pub gap: Gap,
+    /// Position in [`Scene::attachments`] of the one before a [kink](super::kinks), if this holds the part behind it.
+    pub other_side_of: Option<usize>,
 }
 
 /// Reads the attachment in row `i`.
@@ -124,7 +126,7 @@ pub(super) fn read(
         }
     }
     let (anchor, direction) = (row.anchor, row.direction);
-    Ok(AttachmentScene { name, cable, arc_length, body, anchor, clamp, direction, gap })
+    Ok(AttachmentScene { name, cable, arc_length, body, anchor, clamp, direction, gap, other_side_of: None })
 }
 
 /// Says why an anchor may be so far from the point of its cable, if the scene shows it.

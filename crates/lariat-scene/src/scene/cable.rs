@@ -5,9 +5,10 @@ use super::effects::{self, EFFECTS};
 use super::elements::{ELEMENTS, ElementsTable, Grading};
 use super::integrator::{self, IntegratorTable};
 use super::reel::{self, DrumScene, DrumTable, REEL};
+use super::references::{Position, arc_length};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, choice, parse_as, table};
+use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, POSITIVE, VECTOR, choice, parse_as, table};
 use lariat_ancf::{
     At, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3, Water,
 };
@@ -45,6 +46,10 @@ table! {
         /// Number of elements, or a mesh that is fine at some points. A cable over sheaves shares them out over its parts, each of which has at
         /// least two.
         elements: ElementsTable = 10, ELEMENTS;
+        /// Points between the ends at which the slope is free on both sides, as at a hinge: where a point load, a junction or a ball
+        /// attachment bends a cable that is limp, `sqrt(EI/T)` far below an element. It stays one cable, and no moment goes through them.
+        /// Need `engine = "rapier"`. An equilibrium is that of the scene.
+        kinks: Option<Vec<Position>> = ("none"), Kind::List(&POSITION), "m";
         /// Shape of a solid section, or a rope or chain by name and nominal diameter; or the three stiffnesses.
         section: Option<SectionForm> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
         /// Density of the material, beside a solid `section`.
@@ -187,6 +192,8 @@ pub struct CableScene {
     pub grading: Option<Grading>,
     /// Whether nodes are at point loads, where the third derivative of the shape jumps, as they are at attachments.
     pub nodes_at_loads: bool,
+    /// Arc lengths in m of kinks, until it is divided there.
+    pub kinks: Vec<f64>,
     /// Section.
     pub section: Section,
     /// Force strategy.
@@ -244,6 +251,8 @@ pub(super) fn read(
         integrator = integrator::by_discrete_gradient(doc, &at.key("integrator"), integrator, what)?;
     }
     integrator::check_tolerance(doc, &at.key("integrator").key("tolerance"), &row.integrator, length)?;
+    let kink = |(k, point): (usize, &Position)| arc_length(doc, &at.key("kinks").item(k), *point, length);
+    let kinks = row.kinks.iter().flatten().enumerate().map(kink).collect::<Result<_, _>>()?;
     let cable = CableScene {
         points: row.points,
         length,
@@ -252,6 +261,7 @@ pub(super) fn read(
         elements: row.elements.count() as usize,
         grading: row.elements.grading(doc, &at.key("elements"), length)?,
         nodes_at_loads: false,
+        kinks,
         section,
         rule,
         effects,

@@ -28,6 +28,7 @@ pub mod flow;
 pub mod integrator;
 pub mod joint;
 pub mod junction;
+pub mod kinks;
 pub mod load;
 pub(crate) mod mesh;
 mod passing;
@@ -104,7 +105,7 @@ table! {
         /// Gravity.
         gravity: Vector3<f64> = [0.0, -9.81, 0.0], VECTOR, "m/s^2";
         /// Computes the bodies, and the junctions and sheaves of cables.
-        engine: Option<Engine> = ("`\"rapier\"` with bodies, junctions, sheaves or contact between cables, else `\"none\"`"), Kind::Choice(Engine::names);
+        engine: Option<Engine> = ("`\"rapier\"` with bodies, junctions, kinks, sheaves or contact between cables, else `\"none\"`"), Kind::Choice(Engine::names);
         /// Rapier's `num_solver_iterations`, with `engine = "rapier"`.
         solver_iterations: Option<u32> = ("Rapier's"), Kind::Whole(1, MANY);
         /// Water with its surface, current and wave.
@@ -159,6 +160,8 @@ pub struct Scene {
     pub joints: Vec<JointScene>,
     /// Cables tied to each other.
     pub junctions: Vec<JunctionScene>,
+    /// Kinks of cables.
+    pub kinks: Vec<kinks::Kink>,
     /// Sheaves.
     pub sheaves: Vec<SheaveScene>,
     /// Point loads on cables.
@@ -224,6 +227,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         attachments: Vec::new(),
         joints: Vec::new(),
         junctions: Vec::new(),
+        kinks: Vec::new(),
         sheaves: Vec::new(),
         loads: Vec::new(),
         body_loads: Vec::new(),
@@ -254,6 +258,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         scene.joints.push(row);
     }
     let (mut along, at_sheaves) = passing::divide(doc, &mut scene, &table.sheave)?;
+    kinks::divide(doc, &mut scene)?;
     for (i, row) in table.attachment.into_iter().enumerate() {
         let row = attachment::read(doc, &scene, i, row)?;
         scene.attachments.push(row);
@@ -266,6 +271,8 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         let row = junction::read(doc, &scene, i, row)?;
         scene.junctions.push(row);
     }
+    // what is tied at a kink is in its knot
+    kinks::join(doc, &mut scene)?;
     for (i, row) in table.sheave.into_iter().enumerate() {
         let row = sheave::read(doc, &mut scene, i, row, along[i].take())?;
         scene.sheaves.push(row);
@@ -285,7 +292,8 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
 
 /// Returns the engine; without the key, bodies, junctions, sheaves and contact of cables with cables choose Rapier.
 fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
-    let alone = table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty();
+    let kinked = table.cable.iter().position(|row| row.kinks.as_ref().is_some_and(|kinks| !kinks.is_empty()));
+    let alone = table.body.is_empty() && table.junction.is_empty() && table.sheave.is_empty() && kinked.is_none();
     let mut touching = false;
     for (i, row) in table.cable.iter().enumerate() {
         let at = KeyPath::root("cable").item(i).key("contact");
@@ -308,6 +316,11 @@ fn engine(doc: &Document<'_>, table: &SceneTable) -> Result<Engine, Error> {
                 let accepted = "engine = \"rapier\", or no engine";
                 return Err(doc.error_accepting(&KeyPath::root(key).item(0), problem, accepted));
             }
+        }
+        if let Some(i) = kinked {
+            let problem = Problem::Conflict("engine = \"none\" computes no kinks".to_string());
+            let accepted = "engine = \"rapier\", or no engine";
+            return Err(doc.error_accepting(&KeyPath::root("cable").item(i).key("kinks"), problem, accepted));
         }
         if table.solver_iterations.is_some() {
             return Err(doc.conflict(&KeyPath::root("solver_iterations"), "it is a setting of engine = \"rapier\""));

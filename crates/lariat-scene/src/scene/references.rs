@@ -72,6 +72,12 @@ pub(super) fn point(
     };
     let parts = &scene.parts[cable];
     let slack = 1e-9 * scene.whole_length(cable);
+    if let Some([before, _]) = scene.kinks.iter().find(|[_, behind]| *behind == part).filter(|_| on_part <= slack) {
+        return Ok((*before, scene.cables[*before].length));
+    }
+    if scene.kinks.iter().any(|[before, _]| *before == part) {
+        return Ok((part, on_part));
+    }
     let at_first = parts[0] != part && on_part <= slack;
     let at_last = parts.last() != Some(&part) && on_part >= scene.cables[part].length - slack;
     if at_first || at_last {

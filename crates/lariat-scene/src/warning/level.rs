@@ -35,9 +35,10 @@ impl Warning {
             | Warning::WheelTurned { .. }
             | Warning::EnergyMade { .. }
             | Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::UnstableEquilibrium { .. } => Level::Wrong,
-            Warning::EnergyLost { .. } => Level::Coarse,
+            Warning::StiffKink { .. } | Warning::EnergyLost { .. } => Level::Coarse,
         }
     }
 
@@ -50,6 +51,7 @@ impl Warning {
             | Warning::OpenGap { cable, .. }
             | Warning::Unsettled { cable, .. }
             | Warning::MomentAlong { cable, .. }
+            | Warning::StiffKink { cable, .. }
             | Warning::RankDeficient { cable, .. }
             | Warning::UnstableEquilibrium { cable, .. }
             | Warning::VelocityJump { cable, .. }
@@ -67,6 +69,7 @@ impl Warning {
             | Warning::EnergyMade { .. }
             | Warning::EnergyLost { .. }
             | Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::FarAnchor { .. }
@@ -100,7 +103,9 @@ impl Judged for Warning {
             | Warning::WheelTurned { .. }
             | Warning::UnfinishedRamp { .. }
             | Warning::MomentAlong { .. }
+            | Warning::StiffKink { .. }
             | Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::RankDeficient { .. }
             | Warning::UnstableEquilibrium { .. }
@@ -156,10 +161,12 @@ impl Judged for Warning {
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
+            Warning::StiffKink { error_m, .. } => *error_m,
             Warning::AddedMassInAir { share, .. } => *share,
             Warning::FarFromOrigin { distance_m, .. } => *distance_m,
             Warning::FastSpin { turn_rad, .. } => *turn_rad,
             Warning::NoConvergence { .. }
+            | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::RankDeficient { .. }
             | Warning::LeftAsDrawn { .. } => 0.0,

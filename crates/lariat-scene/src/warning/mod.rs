@@ -113,6 +113,23 @@ pub enum Warning {
         /// Time in s.
         time_s: f64,
     },
+    /// A kink of a cable that is too stiff for a hinge.
+    #[error(
+        "cable {cable:?}: its kink at {at_m:.4} m leaves out the moment there, within {layer_m:.1e} m of it, which puts points up to {error_m:.1e} m off at \
+         {time_s:.3} s: leave the kink out, with elements shorter than {layer_m:.1e} m there (`elements = {{ count, finest, at }}`)"
+    )]
+    StiffKink {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the kink in m.
+        at_m: f64,
+        /// Time in s.
+        time_s: f64,
+        /// Length in m within which the cable bends, `sqrt(EI/T)`.
+        layer_m: f64,
+        /// Estimate of the error of position in m.
+        error_m: f64,
+    },
     /// A part of a cable that turned at a wheel, whose points do not follow it.
     #[error(
         "sheave {sheave:?}: a part of its cable turned there by {angle_rad:.3} rad, at {time_s:.3} s: the point where it leaves the wheel is fixed to \
@@ -216,6 +233,24 @@ pub enum Warning {
         elements: usize,
         /// Elements that it would need about, by the order that the runs show.
         #[serde(default)]
+        elements_needed: Option<usize>,
+        /// First host time in s at which the error is not proven.
+        horizon_s: Option<f64>,
+        /// True if the runs are apart by more than a tenth of the longest cable.
+        other_branch: bool,
+    },
+    /// An error of tensions or moments that was asked for and is not proven.
+    #[error("the error {target} is not proven{} with elements = {elements}{}{}", until(*.horizon_s, None), would_need(*.elements_needed),
+        branches(*.other_branch)
+    )]
+    ForcesNotProven {
+        /// What was asked for.
+        target: lariat_ancf::study::Target,
+        /// Estimate of the error in N or N m, or as a share, if the meshes could be compared.
+        estimate: Option<f64>,
+        /// Elements of the cable that has most.
+        elements: usize,
+        /// Elements that it would need about, by the order that the runs show.
         elements_needed: Option<usize>,
         /// First host time in s at which the error is not proven.
         horizon_s: Option<f64>,

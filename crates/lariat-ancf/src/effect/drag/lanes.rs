@@ -404,6 +404,11 @@ impl PointForce for DragTable {
         // statics are in water without a wave
         self.sea = self.flow.surface.as_ref().map(|surface| Surface { wave: None, ..**surface }.sea());
     }
+
+    fn drive_by(&mut self, share: f64) {
+        self.flow.velocity *= share;
+        self.flow.samples.iter_mut().for_each(|velocity| *velocity *= share);
+    }
 }
 
 /// Returns k_n and k_t of sections of which a share is wet.

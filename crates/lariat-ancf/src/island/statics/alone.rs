@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
-    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, lay_out, straighten,
+    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, in_shares, lay_out, straighten,
 };
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
@@ -51,8 +51,14 @@ impl Cable {
             load.stay(now);
             (load.ramp, load.start) = (1.0, 0.0);
         }
-        let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0 };
-        let outcome = find(&mut alone);
+        let start = self.system.forces.drive().then(|| self.snapshot.clone());
+        let mut alone = Alone { cable: self, options, budget: Budget::new(&options), searched: 0, exact: false };
+        let mut outcome = find(&mut alone);
+        if let (Err(_), Some(start)) = (&outcome, start)
+            && let Some(report) = alone.follow(start)
+        {
+            outcome = Ok(report);
+        }
         let iterations = alone.searched + alone.budget.done;
         self.model.loads = loads;
         let contacts = self.end_static_contact();
@@ -113,10 +119,10 @@ impl Cable {
         Some(EquilibriumFailure::Touches { obstacle, arc_length, depth })
     }
 
-    fn attempts(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    fn attempts(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
         if self.system.forces.drive() {
-            return self.come_to_rest_in_flow(budget);
+            return self.come_to_rest_in_flow(budget, exact);
         }
         let start = self.snapshot.clone();
         let moments = self.model.loads.iter().any(|load| load.moment != Vector3::zeros());
@@ -171,9 +177,9 @@ impl Cable {
 
     /// Comes to rest in a flow, or under a force of the user's own, which have no potential to
     /// minimise.
-    fn come_to_rest_in_flow(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    fn come_to_rest_in_flow(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         let start = self.snapshot.clone();
-        let found = self.come_to_rest(budget);
+        let found = self.come_to_rest(budget, exact);
         if found.is_ok() || self.effects().contact.is_some() || self.effects().torsion.is_some() {
             return found;
         }
@@ -183,11 +189,12 @@ impl Cable {
     }
 
     /// Comes to rest by the search of an island without bodies.
-    fn come_to_rest(&mut self, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
+    fn come_to_rest(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         let loads = self.model.loads.clone();
         self.model.loads.iter_mut().for_each(|load| load.ramp = 0.0);
         let cables = &mut [&mut *self];
         let mut search = Search::new(cables, &[], (&[], &[], Loads::default()), budget.tolerance);
+        search.exact = exact;
         let outcome = search.run(cables, budget.left());
         self.model.loads = loads;
         self.snapshot.state.q.copy_from_slice(&search.q);
@@ -237,9 +244,41 @@ struct Alone<'a> {
     budget: Budget,
     /// Iterations of the searches before the present one.
     searched: usize,
+    /// Whether the part of the tangent that is not symmetric is solved with the rest.
+    exact: bool,
 }
 
 impl Alone<'_> {
+    /// Searches with the whole tangent, and if that fails too under what drives the cable as it
+    /// grows from nothing. Without a shape the cable is as before.
+    fn follow(&mut self, start: Snapshot) -> Option<EquilibriumReport> {
+        if self.cable.effects().torsion.is_some() {
+            return None;
+        }
+        self.exact = true;
+        let (time, mut good) = (self.cable.time(), start);
+        let end = self.cable.snapshot.clone();
+        let mut at = |share: f64| {
+            let cable = &mut *self.cable;
+            cable.snapshot = good.clone();
+            cable.system.forces.hold_share(&cable.model, time, share);
+            cable.system.static_contact.end();
+            cable.begin_static_contact();
+            let found = find(self);
+            if found.is_ok() {
+                good = self.cable.snapshot.clone();
+            }
+            found
+        };
+        let found = at(1.0).ok().or_else(|| in_shares(at));
+        self.cable.system.forces.release(&self.cable.model);
+        if found.is_none() {
+            // the shape in which it failed at first tells why
+            self.cable.snapshot = end;
+        }
+        found
+    }
+
     fn begin(&mut self) {
         self.searched += self.budget.done;
         self.budget = Budget::new(&self.options);
@@ -253,16 +292,16 @@ impl Continued for Alone<'_> {
 
     fn search(&mut self) -> Result<EquilibriumReport, Failure> {
         self.begin();
-        let Alone { cable, budget, .. } = self;
-        cable.with_workspace(|cable| cable.attempts(budget))
+        let Alone { cable, budget, exact, .. } = self;
+        cable.with_workspace(|cable| cable.attempts(budget, *exact))
     }
 
     fn improve(&mut self) -> Result<EquilibriumReport, Failure> {
         self.begin();
-        let Alone { cable, budget, .. } = self;
+        let Alone { cable, budget, exact, .. } = self;
         cable.with_workspace(|cable| {
             if cable.system.forces.drive() {
-                return cable.come_to_rest_in_flow(budget);
+                return cable.come_to_rest_in_flow(budget, *exact);
             }
             let report = cable.minimise_energy(1.0, budget)?;
             cable.without_folds(report, budget)

@@ -47,6 +47,13 @@ pub trait PlacedLoad: core::fmt::Debug {
     /// Returns its negative derivative by displacements (m) and rotations (rad) in world axes, in
     /// N/m, N and N m.
     fn stiffness(&self, position: &Vector3<f64>, rotation: &UnitQuaternion<f64>) -> Matrix6<f64>;
+
+    /// Returns the load with a share of what drives it, as the velocity of a current: statics that
+    /// do not find a shape at once follow it from none of it to all. Default: `None`, nothing
+    /// drives it, or no share of it is known.
+    fn driven_by(&self, _share: f64) -> Option<Box<dyn PlacedLoad>> {
+        None
+    }
 }
 
 /// The loads on the bodies of an island, with the numbers of these.

@@ -18,7 +18,9 @@
 //! the next, and [torsion](twists) couples the bodies that hold a cable.
 //!
 //! In a flow, or under a force of the user's own, there is no potential, and the tangent is not
-//! symmetric: the error falls linearly.
+//! symmetric: the error falls linearly. Where no shape is found so, the whole tangent is solved
+//! with (`krylov`); and where that finds none, what drives the shape grows from nothing, and it is
+//! followed.
 //!
 //! # Validity
 //!
@@ -39,6 +41,7 @@
 
 mod alone;
 mod joint;
+mod krylov;
 mod load;
 mod search;
 mod sheaves;
@@ -57,7 +60,7 @@ use crate::cable::Cable;
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::island::layout::Layout;
 use crate::scales::statics::PULLS;
-use crate::statics::{Continued, EquilibriumOptions, EquilibriumReport, find};
+use crate::statics::{Continued, EquilibriumOptions, EquilibriumReport, find, in_shares};
 use nalgebra::Vector3;
 use search::Search;
 use sheaves::{Balance, Passing};
@@ -120,7 +123,7 @@ pub fn equilibrium(
             cable.system.forces.hold(now);
         }
     }
-    let outcome = settle(cables, &mut still, (pins, joints, sheaves, Loads(loads)), options);
+    let outcome = settle_driven(cables, &mut still, Links { pins, joints, sheaves, drums, loads }, options);
     for (cable, before) in cables.iter_mut().zip(before) {
         if outcome.is_err() {
             **cable = before;
@@ -140,18 +143,72 @@ pub fn equilibrium(
     Ok(report)
 }
 
+/// Searches for an equilibrium under what drives cables and bodies, which grows from nothing if no
+/// shape is found at once. Cables and bodies are undefined where none is found.
+fn settle_driven(
+    cables: &mut [&mut Cable],
+    bodies: &mut [RigidBody],
+    Links { pins, joints, sheaves, loads, .. }: Links<'_>,
+    options: EquilibriumOptions,
+) -> Result<EquilibriumReport, Error> {
+    let driven = cables.iter().any(|c| c.system.forces.drive()) || !Loads(loads).have_potential(bodies);
+    // what ran over a sheave before a search failed is not known
+    let follows = driven && sheaves.is_empty();
+    let copy = |cables: &[&mut Cable]| cables.iter().map(|cable| (**cable).clone()).collect::<Vec<Cable>>();
+    let start = follows.then(|| (copy(cables), bodies.to_vec()));
+    let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(loads)), options, false);
+    let (Err(error), Some(start)) = (&outcome, start) else { return outcome };
+    let Error::NoEquilibrium { failure, iterations: first, .. } = error else { return outcome };
+    if matches!(failure, EquilibriumFailure::NotHeld | EquilibriumFailure::Touches { .. }) {
+        return outcome;
+    }
+    let mut iterations = *first;
+    let mut good = start;
+    let mut at = |share: f64| {
+        for (cable, good) in cables.iter_mut().zip(&good.0) {
+            (**cable).clone_from(good);
+            let (now, Cable { system, model, .. }) = (good.time(), &mut **cable);
+            if system.forces.drive() {
+                system.forces.hold_share(model, now, share);
+            }
+        }
+        bodies.clone_from_slice(&good.1);
+        let own: Vec<_> = loads.iter().map(|(body, load)| (*body, load.driven_by(share))).collect();
+        let of_share = own.iter().zip(loads).map(|((body, own), (_, load))| (*body, own.as_deref().unwrap_or(*load)));
+        let of_share: Vec<(usize, &dyn PlacedLoad)> = of_share.collect();
+        let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(&of_share)), options, true);
+        match &outcome {
+            Ok(report) => {
+                iterations += report.iterations;
+                good.1.clone_from_slice(bodies);
+                for (good, cable) in good.0.iter_mut().zip(cables.iter()) {
+                    // with what drives it in full
+                    good.snapshot.clone_from(&cable.snapshot);
+                }
+            }
+            Err(Error::NoEquilibrium { iterations: more, .. }) => iterations += more,
+            Err(_) => {}
+        }
+        outcome
+    };
+    let found = at(1.0).ok().or_else(|| in_shares(at));
+    found.map_or(outcome, |report| Ok(EquilibriumReport { iterations, ..report }))
+}
+
 /// Searches for equilibria until no material runs over a sheave.
 fn settle(
     cables: &mut [&mut Cable],
     bodies: &mut [RigidBody],
     (pins, joints, sheaves, loads): (&[PinConstraint], &[StaticJoint], &[Sheave], Loads<'_>),
     options: EquilibriumOptions,
+    exact: bool,
 ) -> Result<EquilibriumReport, Error> {
     let (mut pins, mut passing) = (pins.to_vec(), Passing::new(sheaves, cables));
     let mut iterations = 0;
     loop {
         cables.iter_mut().for_each(|cable| cable.begin_static_contact());
-        let search = Search::new(cables, bodies, (&pins, joints, loads), options.tolerance);
+        let mut search = Search::new(cables, bodies, (&pins, joints, loads), options.tolerance);
+        search.exact = exact;
         let mut together = Together { cables, search, iterations: options.iterations };
         let outcome = find(&mut together);
         let search = together.search;

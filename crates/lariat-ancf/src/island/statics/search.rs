@@ -1,6 +1,7 @@
 //! The iteration to equilibrium: proximal steps, and the checks of their end.
 
 use super::joint::{Joints, StaticJoint};
+use super::krylov;
 use super::load::Loads;
 use super::twists::{self, Twists};
 use crate::cable::Cable;
@@ -15,7 +16,7 @@ use crate::island::rotation::{exponential, jacobian_inverse};
 use crate::model::{LoadScale, Model, largest_force};
 use crate::scales::statics::{
     AT_REST, GROWTH, ISLAND_CONVERGED, ISLAND_STAGNATION, LEVER_ROUNDING, MAX_C2, MAX_ITERATIONS, MAX_SHAKES,
-    MAX_SLOPE_CHANGE, MIN_C2, REDUCTION, SHAKE, STABILITY_C2,
+    MAX_SLOPE_CHANGE, MIN_C2, PRODUCT_DISPLACEMENT, REDUCTION, SHAKE, STABILITY_C2,
 };
 use crate::section::Element;
 use crate::statics::{first_fold, move_with_supports, potential, straighten};
@@ -43,6 +44,8 @@ pub(super) struct Search<'a> {
     has_potential: bool,
     /// Whether something drives the cables at rest, as a flow does.
     driven: bool,
+    /// Whether the part of the tangent that is not symmetric is solved with the rest.
+    pub exact: bool,
     /// Present where a cable has torsion.
     twists: Option<Twists>,
     /// Loads on bodies that depend on where they are.
@@ -104,6 +107,7 @@ impl<'a> Search<'a> {
             length,
             has_potential,
             driven,
+            exact: false,
             twists,
             loads,
         }
@@ -235,7 +239,7 @@ impl<'a> Search<'a> {
 
     /// Solves the step of `c2` (s^2) into the trial, and returns its largest displacement in m.
     fn step(&mut self, cables: &mut [&mut Cable], c2: f64) -> Result<f64, StepFailure> {
-        let Search { layout, matrices, q, trial, z, v, rhs, time, length, driven, twists, loads, .. } = self;
+        let Search { layout, matrices, q, trial, z, v, rhs, time, length, driven, exact, twists, loads, .. } = self;
         trial.copy_from_slice(q);
         z.fill(0.0);
         let mut before = f64::INFINITY;
@@ -252,15 +256,40 @@ impl<'a> Search<'a> {
                 twists::add_torques(equations.cables, layout, c2, rhs);
                 twists.border(&mut equations, trial)?;
             }
-            let mut solve = |x: &mut [f64]| {
+            let solve = |equations: &mut IslandEquations<'_, '_>, twists: &mut Option<Twists>, x: &mut [f64]| {
                 equations.solve(MatrixKind::Step, trial, x);
                 if let Some(twists) = twists {
-                    twists.complete(&equations, x);
+                    twists.complete(equations, x);
                 }
             };
-            skew.border(rhs.len(), c2, &mut solve);
-            solve(rhs);
+            let rows = (*exact && *driven).then(|| rhs.clone());
+            skew.border(rhs.len(), c2, |x: &mut [f64]| solve(&mut equations, twists, x));
+            solve(&mut equations, twists, rhs);
             skew.complete(rhs);
+            if let Some(rows) = rows {
+                let (mut there, mut way) = (trial.clone(), z.clone());
+                krylov::solve(rhs, |x, out| {
+                    let share = PRODUCT_DISPLACEMENT * *length / equations.norm(x);
+                    way.copy_from_slice(z);
+                    displace(layout, trial, x, share, &mut way);
+                    there.iter_mut().zip(q.iter()).zip(&way).for_each(|((y, q), z)| *y = q + z);
+                    layout.follow(*time, &mut there, v);
+                    layout.follow_acceleration(*time, c2, &there, v, &mut way);
+                    v.fill(0.0);
+                    twists::follow(equations.cables, layout, &there);
+                    let at = ForceInput { time: *time, scale: c2, q: &there, v, dv_dq: 0.0 };
+                    equations.cable_rows(&at, &way, out);
+                    layout.body_rows(c2, &there, v, &way, out);
+                    loads.add(layout, &there, c2, out);
+                    if twists.is_some() {
+                        twists::add_torques(equations.cables, layout, c2, out);
+                    }
+                    out.iter_mut().zip(&rows).for_each(|(out, row)| *out = (row - *out) / share);
+                    solve(&mut equations, twists, out);
+                    skew.complete(out);
+                });
+                twists::follow(equations.cables, layout, trial);
+            }
             let size = equations.norm(rhs);
             let slopes = equations.parts().map(|(c, part)| c.system.scales.extent(&rhs[part.range()]).1);
             let rotations = (0..layout.bodies.len()).map(|i| vector(&rhs[layout.body_at(i) + 3..]).norm());
@@ -269,17 +298,7 @@ impl<'a> Search<'a> {
             if !(size * damp).is_finite() {
                 return Err(StepFailure::NotFinite { what: "increment of statics", node: 0 });
             }
-            for i in 0..layout.bodies_at {
-                z[i] += damp * rhs[i];
-            }
-            for body in 0..layout.bodies.len() {
-                let at = layout.body_at(body);
-                let turn = jacobian_inverse(&vector(&trial[at + 3..])) * vector(&rhs[at + 3..]);
-                for x in 0..3 {
-                    z[at + x] += damp * rhs[at + x];
-                    z[at + 3 + x] += damp * turn[x];
-                }
-            }
+            displace(layout, trial, rhs, damp, z);
             trial.iter_mut().zip(q.iter()).zip(z.iter()).for_each(|((y, q), z)| *y = q + z);
             layout.follow(*time, trial, v);
             layout.follow_acceleration(*time, c2, trial, v, z);
@@ -391,6 +410,22 @@ impl<'a> Search<'a> {
             }
         }
         self.turn();
+    }
+}
+
+/// Adds a share of increments `x`, which solve the equations at coordinates `trial`, to
+/// displacements.
+fn displace(layout: &Layout, trial: &[f64], x: &[f64], share: f64, z: &mut [f64]) {
+    for i in 0..layout.bodies_at {
+        z[i] += share * x[i];
+    }
+    for body in 0..layout.bodies.len() {
+        let at = layout.body_at(body);
+        let turn = jacobian_inverse(&vector(&trial[at + 3..])) * vector(&x[at + 3..]);
+        for i in 0..3 {
+            z[at + i] += share * x[at + i];
+            z[at + 3 + i] += share * turn[i];
+        }
     }
 }
 

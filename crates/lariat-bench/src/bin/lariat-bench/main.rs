@@ -58,6 +58,9 @@ enum Command {
         /// Measure cables that touch alone, and replace that section of a page made before
         #[arg(long, conflicts_with_all = ["quick", "readme", "claims"])]
         contact: bool,
+        /// Measure moments that are asked for, and kinks, alone, and replace that section of a page made before
+        #[arg(long, conflicts_with_all = ["quick", "readme", "claims", "contact"])]
+        forces: bool,
         /// Put the tables of a README between their marks in this file too
         #[arg(long, value_name = "FILE")]
         readme: Option<PathBuf>,
@@ -76,6 +79,9 @@ fn main() -> ExitCode {
         }
         Command::Report { out, contact: true, .. } => {
             report::renew(&out, || report::contact::section(&report::Options::full())).map(|()| String::new())
+        }
+        Command::Report { out, forces: true, .. } => {
+            report::renew(&out, || report::forces::section(&report::Options::full())).map(|()| String::new())
         }
         Command::Report { out, quick, readme, .. } => make_report(&out, quick, readme.as_deref()),
     };

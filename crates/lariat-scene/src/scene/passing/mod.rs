@@ -192,7 +192,7 @@ fn split(
 }
 
 /// Returns the effects of a part of a cable, from an arc length to another.
-fn of_part(own: &CableScene, from: f64, to: f64) -> lariat_ancf::Effects {
+pub(super) fn of_part(own: &CableScene, from: f64, to: f64) -> lariat_ancf::Effects {
     let mut effects = own.effects.clone();
     if let Some(loads) = &mut effects.line_loads {
         loads.0.retain(|load| load.from < to && load.to > from);
@@ -232,6 +232,7 @@ fn held(
         clamp: false,
         direction: None,
         gap: Gap::Refuse(GAP),
+        other_side_of: None,
     })
 }
 
