@@ -39,12 +39,36 @@ pub(crate) trait Continued {
     fn for_each(&mut self, f: impl FnMut(&mut Cable, &[f64]));
 }
 
+/// Searches for an equilibrium under the law of contact as it is. Cables whose axial law cannot push
+/// are searched with one that can first: elements that are half slack cost no energy, and a search
+/// that crumples them on its way ends in shapes that no rope has.
+fn search_by_laws<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure> {
+    let push = |search: &mut S, pushes: bool| {
+        let mut limp = false;
+        search.for_each(|cable, _| limp |= cable.system.forces.push(pushes));
+        limp
+    };
+    if !push(search, true) {
+        return search.search();
+    }
+    let start = search.shape();
+    let found = search.search();
+    push(search, false);
+    if found.is_ok()
+        && let Ok(found) = search.improve()
+    {
+        return Ok(found);
+    }
+    search.restore(start);
+    search.search()
+}
+
 /// Searches for an equilibrium under the law of contact itself.
 pub(crate) fn find<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure> {
     let mut deep = false;
     search.for_each(|cable, q| deep |= cable.system.static_contact.is_deep(&cable.model, q));
     let start = search.shape();
-    let mut found = match (!deep).then(|| search.search()) {
+    let mut found = match (!deep).then(|| search_by_laws(search)) {
         Some(Ok(found)) => found,
         failed => {
             let end = search.shape();
@@ -57,7 +81,7 @@ pub(crate) fn find<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure>
                     search.restore(end);
                     return Err(failure);
                 }
-                _ => search.search()?,
+                _ => search_by_laws(search)?,
             }
         }
     };

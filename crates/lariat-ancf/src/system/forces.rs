@@ -86,6 +86,12 @@ impl Forces {
         self.in_element.as_ref().map_or(0.0, |effects| effects.strain(element, xi, at))
     }
 
+    /// Lets an axial law that cannot push do so, or not any more; returns whether there is one.
+    pub fn push(&mut self, pushes: bool) -> bool {
+        let law = self.in_element.as_mut().and_then(|effects| effects.axial_law.as_mut());
+        law.is_some_and(|law| law.push(pushes))
+    }
+
     /// Returns the curvature in 1/m that effects add to the one that makes the bending moment.
     pub fn curvature_of_effects(&self, at: &SampledPoint<'_>) -> Vector3<f64> {
         self.in_element.as_ref().map_or_else(Vector3::zeros, |effects| effects.curvature(at))

@@ -152,7 +152,9 @@ impl Acts for AxialLaw {
             AxialRule::Mean => vec![mean],
             _ => vec![beside(-1.0), beside(1.0)],
         };
-        Some(LawTable { spline: self.spline(stiffness), points })
+        let spline = self.spline(stiffness);
+        let pushing = spline.slack().map(|_| spline.pushing());
+        Some(LawTable { spline, points, pushing, pushes: false })
     }
 }
 
@@ -162,9 +164,23 @@ pub(crate) struct LawTable {
     spline: Spline,
     /// The squared stretch at its points, by the Gram numbers.
     points: Vec<Six<f64>>,
+    /// Of a law that cannot push: itself with Hooke's law below zero strain, or the other way round
+    /// while it [pushes](Self::push).
+    pushing: Option<Spline>,
+    pushes: bool,
 }
 
 impl LawTable {
+    /// Lets a law that cannot push do so for a while, or not any more; returns whether it is one.
+    pub fn push(&mut self, pushes: bool) -> bool {
+        let Some(other) = &mut self.pushing else { return false };
+        if self.pushes != pushes {
+            core::mem::swap(&mut self.spline, other);
+            self.pushes = pushes;
+        }
+        true
+    }
+
     /// Visits the points with their weight over EA l/4 and the secant of the energy beyond that of
     /// the Green law, `(x - 1)^2/8`, over a step between Gram numbers.
     #[inline(always)]

@@ -75,6 +75,15 @@ impl Spline {
         self.hinges.first().filter(|_| self.slope == 0.0).map(|hinge| hinge.at)
     }
 
+    /// Returns the same with a straight line in compression.
+    pub fn pushing(&self) -> Self {
+        let none_above = Hinge { at: 0.0, linear: -1.0, square: 0.0 };
+        Spline {
+            slope: self.slope + 1.0,
+            hinges: [none_above].into_iter().chain(self.hinges.iter().copied()).collect(),
+        }
+    }
+
     /// Returns dT/de at a strain, from above.
     fn slope_at(&self, strain: f64) -> f64 {
         let of = |h: &Hinge| if strain < h.at { 0.0 } else { h.linear + 2.0 * h.square * (strain - h.at) };
