@@ -93,6 +93,7 @@ mod roll;
 mod slide;
 mod statics;
 mod step;
+mod straight;
 mod touch;
 mod tube;
 
