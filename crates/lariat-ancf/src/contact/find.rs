@@ -87,7 +87,6 @@ impl ContactStep {
                     let straight = if pair.is_wide(feature.radius) { pair.straightness(&feature) } else { Some(1.0) };
                     if let Some(straight) = straight {
                         let round = pair.is_wide(feature.radius).then_some(straight);
-                        sharp |= round.is_some();
                         self.nearby.push(Nearby { element, from, obstacle: number, feature, round, start: None });
                         self.add_feature(&pair, &feature);
                     }

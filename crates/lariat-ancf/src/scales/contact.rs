@@ -49,8 +49,8 @@ pub(crate) const WIDE: f64 = 2.0;
 /// which on its closest point acts. Derived: half way between straight and lying on the surface.
 pub(crate) const STRAIGHT_ACROSS: f64 = 0.5;
 
-/// The same for one that acted in the last step. Unknown: half of that, so that it does not come and
-/// go.
+/// The same for one that acted in the last step. Unknown: half of that, so that it does not come
+/// and go.
 pub(crate) const STAYS_STRAIGHT: f64 = 0.25;
 
 /// The same from which on samples beside it do not act. Unknown: half way to straight, so that they
