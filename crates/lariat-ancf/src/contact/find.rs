@@ -81,8 +81,13 @@ impl ContactStep {
                     self.tests += 1;
                     let close = is_near(&own, near);
                     sharp |= close && feature.radius == 0.0;
-                    if close && !pair.is_wide(feature.radius) && (!is_long || tube.any(&mut is_near)) {
-                        self.nearby.push(Nearby { element, from, obstacle: number, feature, start: None });
+                    if !close || is_long && !tube.any(&mut is_near) {
+                        return;
+                    }
+                    let straight = if pair.is_wide(feature.radius) { pair.straightness(&feature) } else { Some(1.0) };
+                    if let Some(straight) = straight {
+                        let round = pair.is_wide(feature.radius).then_some(straight);
+                        self.nearby.push(Nearby { element, from, obstacle: number, feature, round, start: None });
                         self.add_feature(&pair, &feature);
                     }
                 });
@@ -95,6 +100,7 @@ impl ContactStep {
             }
         }
         self.hand_over(motion.memory);
+        self.leave_to_closest(motion);
         self.close_offsets(PAID * motion.lost * motion.h);
         self.before = self.points.iter().map(ContactPoint::energy_before).sum();
         for point in &mut self.points {

@@ -24,8 +24,8 @@ pub(in crate::contact) struct Linear {
     pub row_slip: Vector3<f64>,
     /// Arm of the force about the centre of the body that carries the obstacle.
     pub arm: Vector3<f64>,
-    /// The arm in the tangent: on the line of its normal, between that of the force and that of the
-    /// end.
+    /// The arm in the tangent: on the line of its normal, that of the row between that of the force
+    /// and that of the end.
     pub lever: Vector3<f64>,
     pub normal: Vector3<f64>,
     pub normal_force: f64,

@@ -26,13 +26,14 @@
 //! points at a face touches it with its centre a radius away. On edges, corners and thin rods acts
 //! the closest point of the element, one for each of these features; on edges and corners, of no
 //! radius of their own, samples act as well, so that one that slides off a face hands its force on,
-//! and beside them the force along the cable loses nothing (glide.rs). Both are chosen when a step
-//! begins (find.rs). Samples stay the same material points during it, and keep their patches;
-//! closest points follow the iteration (roll.rs), act between those of the beginning and the end of
-//! a step while the cable slides (slide.rs), and what was not near at the beginning is found when
-//! it ends (missed.rs). A patch is one-sided: as long as the centre line is behind it, it is kept.
-//! It is swept: where the predicted way of a point meets the surface, the patch is that of the
-//! meeting point.
+//! and beside them the force along the cable loses nothing (glide.rs). Where a cable lies straight
+//! across a wide round surface its closest point acts, since it would sink in between samples
+//! (straight.rs). Both are chosen when a step begins (find.rs). Samples stay the same material
+//! points during it, and keep their patches; closest points follow the iteration (roll.rs), act
+//! between those of the beginning and the end of a step while the cable slides (slide.rs), and what
+//! was not near at the beginning is found when it ends (missed.rs). A patch is one-sided: as long
+//! as the centre line is behind it, it is kept. It is swept: where the predicted way of a point
+//! meets the surface, the patch is that of the meeting point.
 //!
 //! A contact that is deeper when a step begins than it was when the last one ended (a new one that
 //! is born deep, an obstacle that was put elsewhere, another patch) gets an offset of the
@@ -93,6 +94,7 @@ mod roll;
 mod slide;
 mod statics;
 mod step;
+mod straight;
 mod touch;
 mod tube;
 

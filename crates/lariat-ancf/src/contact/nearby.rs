@@ -12,6 +12,9 @@ pub(super) struct Nearby {
     /// Number of the obstacle.
     pub obstacle: usize,
     pub feature: Feature,
+    /// How straight the cable is across it, of one that samples see as smooth
+    /// ([`straight`](super::straight)).
+    pub round: Option<f64>,
     /// Element, where it begins, and local coordinate of the point that is closest when the step
     /// begins; `None` until it is asked for.
     pub start: Option<Option<(usize, f64, f64)>>,

@@ -26,10 +26,11 @@ impl ContactPoint {
         let change = changes(element, &self.shape);
         let at = self.evaluate(obstacle, &change, self.about, Some(&mut tangents));
         let apart = self.between.is_some();
-        let row_slip = if apart { obstacle.slip(&row.start, &changes(element, &row.shape)) } else { at.slip };
+        let row_change = if apart { changes(element, &row.shape) } else { change };
+        let row_slip = if apart { obstacle.slip(&row.start, &row_change) } else { at.slip };
         let Evaluation { force, slip, arm, normal, normal_force, .. } = at;
         let Evaluation { pressure, slope, depth, slides, .. } = at;
-        let lever = obstacle.lever(&self.start, &change);
+        let lever = obstacle.lever(&row.start, &row_change);
         self.linear = Linear {
             force,
             tangents,

@@ -117,7 +117,8 @@ impl Pair<'_> {
 
     /// Returns a point of the element that touches a feature.
     pub fn feature_point(&self, feature: &Feature, xi: f64) -> ContactPoint {
-        let weight = (self.section.length / SPACINGS).min(4.0 * self.radius);
+        let spacing = self.section.length / SPACINGS;
+        let weight = if self.is_wide(feature.radius) { spacing } else { spacing.min(4.0 * self.radius) };
         self.point(feature_place(feature), xi, weight)
     }
 

@@ -45,6 +45,18 @@ pub(crate) const SPACINGS: f64 = 3.0;
 /// spacings. Derived: between two samples it recedes by a sixteenth of the spacing.
 pub(crate) const WIDE: f64 = 2.0;
 
+/// Share of what the distance of a straight cable from the core of a round surface grows by, from
+/// which on its closest point acts. Derived: half way between straight and lying on the surface.
+pub(crate) const STRAIGHT_ACROSS: f64 = 0.5;
+
+/// The same for one that acted in the last step. Unknown: half of that, so that it does not come
+/// and go.
+pub(crate) const STAYS_STRAIGHT: f64 = 0.25;
+
+/// The same from which on samples beside it do not act. Unknown: half way to straight, so that they
+/// are there before it ends.
+pub(crate) const STRAIGHT_ALONE: f64 = 0.75;
+
 /// Intervals in which the closest point of an element is looked for. Derived: twice those of its
 /// samples.
 pub(crate) const INTERVALS: usize = 8;

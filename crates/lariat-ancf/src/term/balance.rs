@@ -28,6 +28,8 @@ pub(crate) struct Balance {
     pub weight: f64,
     /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
     pub imbalance: f64,
+    /// What of that is on bodies.
+    pub imbalance_of_bodies: f64,
     /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports
     /// and pins.
     pub impulse: f64,
@@ -56,6 +58,7 @@ impl Balance {
         self.held += other.held;
         self.weight += other.weight;
         self.imbalance += other.imbalance;
+        self.imbalance_of_bodies += other.imbalance_of_bodies;
         self.impulse += other.impulse;
         self.nonsmooth |= other.nonsmooth;
         self.entries.iter_mut().zip(&other.entries).for_each(|(own, other)| own.add(other));

@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Cables and the bodies that they touch.
 pub struct World {
     pub cables: Vec<Cable>,
-    bodies: Vec<RigidBody>,
+    pub bodies: Vec<RigidBody>,
     island: Island,
     pub integrator: Integrator,
     largest: f64,

@@ -15,6 +15,7 @@ mod hooks;
 mod pairs;
 mod restitution;
 mod search;
+mod slides;
 mod state;
 mod statics;
 mod wall;

@@ -18,8 +18,8 @@
 //! is therefore accepted only if its energy balance *closes*, to 1 % of what they lose. Where a
 //! term with corners in its law acts (nonsmooth, most often contact), it must close to 1 % of all
 //! that the step loses; every iteration has a new tangent, up to 20 are taken, and those that swing
-//! by halves (relaxation.rs). After those the balance alone must close; and in the last division
-//! the energy law alone must hold.
+//! by halves (relaxation.rs). After those the balance alone must close, and bodies must have the
+//! momentum that their forces give; in the last division the energy law alone must hold.
 //!
 //! # Verdicts
 //!
@@ -148,6 +148,14 @@ fn is_almost_solved(balance: &Balance) -> bool {
     !balance.nonsmooth || balance.imbalance <= LARGEST_IMBALANCE * balance.impulse
 }
 
+/// Returns whether the bodies of a nonsmooth iterate have the momentum that their forces give. The
+/// energy law alone lets one pass that a contact pushed in the linear solve and not in its law: a
+/// ball of 0.8 kg lost half of its 4 m/s to nothing. Of cables that is not asked: where they are
+/// stiff, axial forces that balance each other are far larger than all impulses.
+fn are_bodies_balanced(balance: &Balance) -> bool {
+    !balance.nonsmooth || balance.imbalance_of_bodies <= LARGEST_IMBALANCE * balance.impulse
+}
+
 /// Returns the verdict of the general tests about the energy.
 fn judge_energy(balance: &Balance) -> Verdict {
     if balance.excess() > balance.tolerance() {
@@ -173,6 +181,7 @@ fn judge<S: DiscreteGradientSystem>(
         Verdict::Accept if iteration < demand.for_forces && !are_forces_right(balance, demand) => {
             Verdict::Iterate(Reason::Unbalanced)
         }
+        Verdict::Accept if !are_bodies_balanced(balance) => Verdict::Iterate(Reason::Unbalanced),
         Verdict::Accept => system.verdict(balance, Stage::Iterating),
         verdict => verdict,
     }
@@ -289,6 +298,7 @@ pub(super) fn step<S: DiscreteGradientSystem>(
         let found = system.inspect(&balance);
         let may_end = found == Verdict::Accept || shortest || reduced;
         let law = match judge_energy(&balance) {
+            Verdict::Accept if !are_bodies_balanced(&balance) => Verdict::Iterate(Reason::Unbalanced),
             Verdict::Accept => system.verdict(&balance, Stage::Ended),
             verdict => verdict,
         };

@@ -313,11 +313,13 @@ impl BodyStep {
         total.residual -= power(row);
         // the locks take what is left
         total.to(Account::Supports).work -= all - power(row);
-        total.imbalance += if self.mass > 0.0 {
+        let imbalance = if self.mass > 0.0 {
             self.momentum_size(&(self.compliance * self.in_body_axes(row)))
         } else {
             sum_of_forces(row)
         };
+        total.imbalance += imbalance;
+        total.imbalance_of_bodies += imbalance;
         let of_loads = self.compliance * stack([self.force, self.turning]) * self.h;
         total.impulse += self.momentum_size(&self.change) + self.mass * split(&of_loads)[0].norm();
         let (second, start) = (self.second_difference(), self.velocity);
