@@ -25,6 +25,12 @@ struct Memory {
     drag: Vector3<f64>,
 }
 
+/// Returns the inertia about the centre of mass in kg m^2, in world axes.
+fn world_inertia(body: &RigidBody) -> Matrix3<f64> {
+    let turn = rotation(*body.rotation()).to_rotation_matrix();
+    turn * symmetric_inertia(body) * turn.transpose()
+}
+
 /// What acts on a body in a Rapier step.
 #[derive(Clone, Copy, Debug)]
 struct Acting {
@@ -35,6 +41,12 @@ struct Acting {
     memory: Memory,
     /// Centre of mass in m and attitude, at the beginning.
     place: (Vector3<f64>, UnitQuaternion<f64>),
+    /// Velocity in m/s and spin in rad/s, at the beginning.
+    velocity: [Vector3<f64>; 2],
+    /// What balances the weight of the added mass in N.
+    balance: Vector3<f64>,
+    /// Share of the step by which the position is ahead.
+    lead: f64,
 }
 
 /// A body in water.
@@ -53,6 +65,9 @@ pub(super) struct Member {
     memory: Memory,
     /// Work of the water on it in J.
     pub(super) work: f64,
+    /// What Rapier's substeps took from it in J.
+    #[serde(default)]
+    pub(super) substeps: f64,
     #[serde(skip)]
     acting: Option<Acting>,
 }
@@ -104,7 +119,7 @@ impl Member {
     /// it floats.
     pub(super) fn new(body: RigidBodyHandle, hull: Hull, immersed: Immersed, (added, floating): (f64, f64)) -> Self {
         let memory = Memory::default();
-        Member { body, hull, immersed, added, dry: false, floating, memory, work: 0.0, acting: None }
+        Member { body, hull, immersed, added, dry: false, floating, memory, work: 0.0, substeps: 0.0, acting: None }
     }
 
     /// Returns the volume in m^3.
@@ -230,7 +245,8 @@ impl Member {
         let memory = self.memory;
         let (force, turned) = self.force(body, input);
         let (centre, scale) = (vector(body.local_center_of_mass()), f64::from(body.gravity_scale()));
-        let sum = force.pressure + force.drag + force.inertia - input.gravity * (scale * self.carried());
+        let balance = input.gravity * (-scale * self.carried());
+        let sum = force.pressure + force.drag + force.inertia + balance;
         let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
             + (turned * (force.drag_point - centre)).cross(&force.drag)
             + force.moment;
@@ -239,13 +255,14 @@ impl Member {
         body.add_torque(to_vector(&moment), false);
         let with = [body.user_force(), body.user_torque()];
         let place = (vector(body.center_of_mass()), rotation(*body.rotation()));
-        self.acting = Some(Acting { own, with, memory, place });
+        let velocity = [vector(body.linvel()), vector(body.angvel())];
+        self.acting = Some(Acting { own, with, memory, place, velocity, balance, lead: input.lead / input.h });
     }
 
     /// Takes the force of the last step off a body, if it is still there: after the step, whose
     /// work it adds, or without one.
     pub(super) fn take_off(&mut self, body: Option<&mut RigidBody>, stepped: bool) {
-        let Some(Acting { own, with, memory, place }) = self.acting.take() else { return };
+        let Some(Acting { own, with, memory, place, velocity, balance, lead }) = self.acting.take() else { return };
         if !stepped {
             self.memory = memory;
         }
@@ -260,7 +277,10 @@ impl Member {
         if stepped {
             let turn = (rotation(*body.rotation()) * place.1.inverse()).scaled_axis();
             let [force, torque] = [0, 1].map(|i| vector(with[i]) - vector(own[i]));
-            self.work += force.dot(&(vector(body.center_of_mass()) - place.0)) + torque.dot(&turn);
+            let moved = vector(body.center_of_mass()) - place.0;
+            self.work += (force - balance).dot(&moved) + torque.dot(&turn);
+            let [dv, dw] = [vector(body.linvel()) - velocity[0], vector(body.angvel()) - velocity[1]];
+            self.substeps += lead * (f64::from(body.mass()) * dv.norm_squared() + dw.dot(&(world_inertia(body) * dw)));
         }
     }
 
