@@ -83,6 +83,7 @@ pub mod drag;
 pub mod hull;
 mod immersed;
 mod member;
+mod rise;
 mod still;
 
 pub use bodies::BodiesInWater;

@@ -15,9 +15,9 @@
 //! With stock that rides with the body at the eye, which is a part of the system, the power is `l'
 //! (B + 1/2 rho l'^2 f^2)`.
 //!
-//! What holds an eye that moves does the work of the force at its section over its own motion: in axes
-//! that move with a velocity V the energies differ by V times momentum and by V^2/2 times mass, and
-//! the laws above give the same B and pull.
+//! What holds an eye that moves does the work of the force at its section over its own motion: in
+//! axes that move with a velocity V the energies differ by V times momentum and by V^2/2 times
+//! mass, and the laws above give the same B and pull.
 //!
 //! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion
 //! without loss; in a coil by an inelastic impact, so that a falling chain obeys `m g = d(m v)/dt`.
