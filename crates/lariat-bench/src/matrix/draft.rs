@@ -212,7 +212,7 @@ impl Draft {
                 self.clamps = true;
             }
             Feature::Stranded => {
-                effects.torsion = Some(Torsion { damping: 0.2, ..Torsion::stranded(1e-3, 0.1, 0.02) });
+                effects.torsion = Some(Torsion { damping: 1.0, ..Torsion::stranded(1e-3, 0.1, 0.02) });
                 self.clamps = true;
             }
             Feature::Water => {

@@ -8,6 +8,7 @@
 //! at the start by more than the same bodies and joints make without ropes, which is Rapier's own; and the cables' own account.
 
 use super::common::{Random, cable, told};
+use ::nalgebra::UnitQuaternion;
 use lariat_rapier::convert::to_vector;
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -40,6 +41,8 @@ struct Made {
     springs: Vec<Spring>,
     /// Whether a motor or a kinematic body does work.
     driven: bool,
+    /// Whether a rope or a spring joins a link of a multibody.
+    mixed: bool,
     text: String,
 }
 
@@ -77,11 +80,19 @@ fn joint(r: &mut Random, kind: Kind, arm: Vector3<f64>, weight: f64, driven: &mu
             let (to, gain) = ((r.between(-0.3, 0.3) * length) as Real, (weight / length) as Real);
             if motor { joint.motor_position(to, 20.0 * gain, 4.0 * gain).into() } else { joint.into() }
         }
-        Kind::Rope => RopeJointBuilder::new((length * r.between(1.0, 1.3)) as Real).into(),
+        Kind::Rope => facing(RopeJointBuilder::new((length * r.between(1.0, 1.3)) as Real).into(), arm),
         Kind::Spring => unreachable!("made by its caller"),
     };
     *driven |= motor && matches!(kind, Kind::Revolute | Kind::Prismatic);
     joint.set_contacts_enabled(false);
+    joint
+}
+
+/// Turns the first frame of a joint of coupled axes so that its x axis points along the arm: Rapier 0.36 pushes a body whose x is
+/// negative in that frame to x = 0, by 3 m/s that no velocity knows of, with ropes and without.
+fn facing(mut joint: GenericJoint, arm: Vector3<f64>) -> GenericJoint {
+    let turn = UnitQuaternion::rotation_between(&Vector3::x(), &arm).unwrap_or_else(UnitQuaternion::identity);
+    joint.local_frame1 = Pose::new(Vector::ZERO, to_vector(&turn.scaled_axis()));
     joint
 }
 
@@ -93,6 +104,7 @@ fn make(seed: u64, ropes: bool) -> Made {
     world.integration_parameters.dt = (1.0 / rate) as Real;
     let base = r.log(1e-3, 5e4);
     let mut driven = r.between(0.0, 1.0) < 0.2;
+    let (multibodies, mut mixed) = (r.between(0.0, 1.0) < 0.4, false);
     let post = match driven {
         true => RigidBodyBuilder::kinematic_velocity_based().linvel(Vector::new(0.2, 0.0, 0.1)).angvel(Vector::Z * 0.3),
         false => RigidBodyBuilder::fixed(),
@@ -115,13 +127,14 @@ fn make(seed: u64, ropes: bool) -> Made {
         let kinds = [Kind::Fixed, Kind::Revolute, Kind::Spherical, Kind::Prismatic, Kind::Rope, Kind::Spring];
         let kind = r.one(&kinds);
         let weight = mass * 9.81;
-        let multibody = r.between(0.0, 1.0) < 0.5 && !matches!(kind, Kind::Rope | Kind::Spring);
+        let multibody = multibodies && !matches!(kind, Kind::Rope | Kind::Spring);
+        mixed |= multibodies && !multibody;
         if kind == Kind::Spring {
             let (rest, stiffness) = (reach * r.between(0.8, 1.1), weight / reach * r.log(5.0, 200.0));
             let damping = r.one(&[0.0, 0.05]) * 2.0 * (stiffness * mass).sqrt();
             let spring = SpringJointBuilder::new(rest as Real, stiffness as Real, damping as Real);
             let spring = spring.spring_model(MotorModel::ForceBased).contacts_enabled(false);
-            world.insert_impulse_joint(bodies[parent], body, spring);
+            world.insert_impulse_joint(bodies[parent], body, facing(spring.into(), arm));
             springs.push(([bodies[parent], body], rest, stiffness));
         } else {
             let joint = joint(&mut r, kind, arm, weight, &mut driven);
@@ -168,7 +181,7 @@ fn make(seed: u64, ropes: bool) -> Made {
             set.attach_here(&world, rope, At::End, bodies[other], AttachmentKind::Ball).unwrap();
         }
     }
-    Made { world, set, springs, driven, text }
+    Made { world, set, springs, driven, mixed, text }
 }
 
 impl Made {
@@ -219,7 +232,7 @@ impl Made {
 
 /// Runs worlds, and returns what is wrong with them, and the most iterations of a host step.
 fn run(seeds: std::ops::Range<u64>) -> (Vec<String>, u64) {
-    let (mut wrong, mut most) = (Vec::new(), 0);
+    let (mut wrong, mut most, mut refused) = (Vec::new(), 0, 0);
     for seed in seeds {
         let mut made = make(seed, true);
         let outcome = match catch_unwind(AssertUnwindSafe(|| made.run())) {
@@ -232,7 +245,10 @@ fn run(seeds: std::ops::Range<u64>) -> (Vec<String>, u64) {
         };
         most = most.max(outcome.iterations);
         let mut faults = Vec::new();
-        faults.extend(outcome.refused.as_ref().map(|text| format!("refused: {text}")));
+        // which Rapier does not solve as one system, as the error says
+        let known = |text: &&String| made.mixed && text.contains("use impulse joints");
+        refused += u32::from(outcome.refused.as_ref().is_some_and(|text| known(&text)));
+        faults.extend(outcome.refused.as_ref().filter(|text| !known(text)).map(|text| format!("refused: {text}")));
         faults.extend(outcome.not_finite.then(|| "not finite".to_string()));
         if outcome.told.iter().any(|name| name.contains("EnergyMade")) {
             faults.push("by its own account, energy is made".to_string());
@@ -248,6 +264,7 @@ fn run(seeds: std::ops::Range<u64>) -> (Vec<String>, u64) {
             wrong.push(format!("{seed}: {}: {} told {:?}", faults.join("; "), made.text, outcome.told));
         }
     }
+    println!("{refused} worlds with impulse joints on links of multibodies are refused, with this reason");
     (wrong, most)
 }
 
