@@ -349,7 +349,7 @@ impl Member {
         let mut drag = self.memory.drag;
         let mut rounds = 0;
         let now = loop {
-            let now = acting(risen(&drag), rounds >= STEP_ROUNDS / 4);
+            let now = acting(risen(&drag), false);
             let change = now.drag - drag;
             // buoyancy depends on how far drag lets the body go
             if rising.is_none() || h <= 0.0 || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm()) {
@@ -362,15 +362,22 @@ impl Member {
                 // between what neither exceeds
                 let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &place.centre).velocity);
                 let still = h * up.dot(&(water.current(time, &place.centre) + wave));
-                let with = |rise: f64| acting((rising.mean_volume(rise), rise), true);
                 let free = without_buoyancy(&Vector3::zeros());
                 let (low, high) =
                     (free.min(still).min(0.0), (free + by_volume * self.hull.volume()).max(still).max(0.0));
-                let rise = bisect(low, high, |rise| {
-                    let volume = rising.mean_volume(rise);
-                    without_buoyancy(&with(rise).drag) + by_volume * volume - rise
-                });
-                break with(rise);
+                let solved = |implicit: bool| {
+                    let with = |rise: f64| acting((rising.mean_volume(rise), rise), implicit);
+                    let excess = |rise: f64| {
+                        let by_buoyancy = by_volume * rising.mean_volume(rise);
+                        without_buoyancy(&with(rise).drag) + by_buoyancy - rise
+                    };
+                    let rise = bisect(low, high, excess);
+                    (with(rise), excess(rise).abs() <= SAME_DRAG * (high - low))
+                };
+                // the mean of drag that does work jumps to that of the mean velocity: there may be
+                // no root but by the latter
+                let (decaying, found) = solved(false);
+                break if found { decaying } else { solved(true).0 };
             }
         };
         let InStep { middle, wet, pressure, inertia, factor, drag } = now;
