@@ -362,8 +362,8 @@ pub(crate) mod water {
     /// Derived: the rounding of forces in single precision.
     pub(crate) const SAME_DRAG: f64 = 1e-7;
 
-    /// Most rounds in which they come to agree, a quarter of them without relaxation. Unknown: one
-    /// or two do, but where a light body falls into water.
+    /// Most rounds in which they come to agree before bisection, half of them without relaxation.
+    /// Unknown: one or two do, but where a light body falls into water.
     pub(crate) const STEP_ROUNDS: u32 = 32;
 
     /// Rise over the radius of a body below which the mean volume over the step is that at its

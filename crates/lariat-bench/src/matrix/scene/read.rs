@@ -76,6 +76,7 @@ impl Scene {
         let mut work = 0.0;
         for (_, cable) in self.set.iter() {
             let law = cable.energy_law();
+            // that of supports has the work of bodies that do not give way, and of kinematic ones
             work += cable.effect_work().total() + law.supports + law.obstacles;
             // the work of loads is independent of the run's account, which counts all forces on
             // bodies, too
@@ -88,11 +89,6 @@ impl Scene {
         if let Some(water) = self.set.water() {
             let of = |body| Some(water.work(body)? - water.lost_in_substeps(body)?);
             work += water.bodies().filter_map(of).sum::<f64>();
-        }
-        for (_, attachment) in self.set.attachments() {
-            let moves = self.physics.bodies.get(attachment.body()).is_some_and(RigidBody::is_dynamic);
-            // what a body that does not give way received from its cable
-            work -= if moves { 0.0 } else { attachment.work() };
         }
         let scale = cables.kinetic + cables.axial + cables.bending + energy.bodies_kinetic;
         let known = self.set.drums().next().is_none();
