@@ -87,6 +87,10 @@ pub(crate) mod mechanism {
     /// where joints lock the same motion twice.
     pub(crate) const REGULARISATION: f64 = 1e-12;
 
+    /// z below which the implicit share of damping is a series. Derived: the next term, z^3/720,
+    /// and the rounding of the difference of two inverses are both about 1e-12 there.
+    pub(crate) const SERIES: f64 = 1e-3;
+
     /// e: share of its own mobility that a body keeps along what its joints hold. Unknown: it keeps
     /// the matrix regular; steady loads do not move bodies by it (test
     /// rigid_chains_on_damped_ropes_are_exact).
@@ -362,8 +366,8 @@ pub(crate) mod water {
     /// Derived: the rounding of forces in single precision.
     pub(crate) const SAME_DRAG: f64 = 1e-7;
 
-    /// Most rounds in which they come to agree, a quarter of them without relaxation. Unknown: one
-    /// or two do, but where a light body falls into water.
+    /// Most rounds in which they come to agree before bisection, half of them without relaxation.
+    /// Unknown: one or two do, but where a light body falls into water.
     pub(crate) const STEP_ROUNDS: u32 = 32;
 
     /// Rise over the radius of a body below which the mean volume over the step is that at its

@@ -420,3 +420,79 @@ fn a_body_has_its_added_mass_in_water_alone() {
     let expected = y + v * 0.25 - 0.5 * G * 0.0625;
     assert!((tank.y() - expected).abs() < 1e-2, "{} {expected}", tank.y());
 }
+
+/// Light floats of all sizes that rise from a depth, at host steps far longer than their motion: with drag they leave the water no faster than they rise in it,
+/// and come to their draught, to 1 % of their side; without it they have no more energy than the water gave them.
+///
+/// *Source.* The terminal velocity sqrt(2 V g/A), and the energy of the displaced water, rho g V times the way.
+#[test]
+fn floats_of_any_mass_and_size_leave_the_water_as_fast_as_they_rise() {
+    for (mass, side) in [(0.1, 0.5), (0.1, 1.0), (0.1, 2.0), (0.3, 0.5), (0.3, 2.0), (10.0, 0.5), (100.0, 2.0)] {
+        for rate in [240.0, 60.0, 15.0, 10.0] {
+            for drag in [true, false] {
+                let (area, depth) = (1.05 * side * side, 3.0);
+                let spin_drag = Vector3::repeat(0.1 * side.powi(5));
+                let dragged = Immersed { spin_drag, ..Immersed::with_drag_area([area; 3]) };
+                let immersed = if drag { dragged } else { Immersed::default() };
+                let body = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -depth as f32, 0.0));
+                let half = 0.5 * side as f32;
+                let shape = ColliderBuilder::cuboid(half, half, half).mass(mass as f32);
+                let mut tank = Tank::new(body, shape, sea(), immersed.with_added_mass(0.5), 1.0 / rate);
+                let terminal = (2.0 * side.powi(3) * G / area).sqrt();
+                let energy = RHO * G * side.powi(3) * (depth + 0.5 * side);
+                let draught = mass / (RHO * side * side);
+                let (mut fastest, mut bob) = (0.0f64, 0.0f64);
+                for _ in 0..(20.0 * rate) as usize {
+                    tank.step();
+                    fastest = fastest.max(tank.speed());
+                    if tank.time > 18.0 {
+                        bob = bob.max((tank.y() - 0.5 * side + draught).abs());
+                    }
+                    let held = 0.5 * mass * tank.speed().powi(2) + mass * G * (tank.y() + depth);
+                    assert!(held <= 1.01 * energy, "{mass} kg, {side} m, {rate}/s: {held} J of {energy} J");
+                }
+                if drag {
+                    assert!(fastest < 2.0 * terminal, "{mass} kg, {side} m, {rate}/s: {fastest} m/s, {terminal} m/s");
+                    assert!(bob < 0.01 * side, "{mass} kg, {side} m, {rate}/s: {bob} m off its draught at last");
+                }
+            }
+        }
+    }
+}
+
+/// A body of the density of the water is taken along by a current, on its own and on a cable of no weight: its velocity is of second order in the step, and so is
+/// the place of a body with a cable. Rapier's substeps move a body without one ahead, by half a substep of the change of its velocity.
+///
+/// *Source.* v = u - u/(1 + c u t/m), x = u t - (m/c) log(1 + c u t/m), c = rho C A/2.
+#[test]
+fn a_current_takes_a_body_along_as_its_closed_form_says() {
+    let (current, mass, area, seconds) = (2.0f64, 20.0f64, 0.05f64, 1.0f64);
+    let rate = 0.5 * RHO * area * current / mass;
+    let velocity = current - current / (1.0 + rate * seconds);
+    let place = current * seconds - current / rate * (rate * seconds).ln_1p();
+    let off = |held: bool, steps: f64| {
+        let half = (0.5 * (mass / RHO).cbrt()) as f32;
+        let shape = ColliderBuilder::cuboid(half, half, half).mass(mass as f32);
+        let water = Water::new(RHO).with_flow(Flow::uniform(Vector3::new(current, 0.0, 0.0)));
+        let body = RigidBodyBuilder::dynamic().can_sleep(false);
+        let mut tank = Tank::new(body, shape, water, Immersed::with_drag_area([area; 3]), seconds / steps);
+        if held {
+            let section = Section::from_stiffness(1e3, 1e-6, 1e-6).unwrap();
+            let cable =
+                Cable::builder().points([Vector3::zeros(), Vector3::new(0.0, -1.0, 0.0)]).section(section).elements(3);
+            let cable = tank.cables.insert(cable.build().unwrap());
+            tank.cables.attach_here(&tank.world, cable, At::Start, tank.body, AttachmentKind::Ball).unwrap();
+        }
+        tank.run(seconds);
+        let (x, v) = (vector(tank.body().translation()).x, vector(tank.body().linvel()).x);
+        let substeps = f64::from(tank.world.integration_parameters.num_solver_iterations as u32);
+        (v - velocity, x - place, 0.5 * seconds / steps / substeps * velocity)
+    };
+    for held in [false, true] {
+        let [(v, x, ahead), (fine_v, fine_x, finely_ahead)] = [off(held, 32.0), off(held, 64.0)];
+        println!("{held}: {v:e} {x:e} {ahead:e}, {fine_v:e} {fine_x:e} {finely_ahead:e}");
+        assert!((v / fine_v).log2() > 1.8 && v.abs() < 1e-3, "{held}: {v:e}, {fine_v:e}");
+        let [x, fine_x] = if held { [x, fine_x] } else { [x - ahead, fine_x - finely_ahead] };
+        assert!((x / fine_x).log2() > 1.8 && x.abs() < 2e-3, "{held}: {x:e}, {fine_x:e}");
+    }
+}

@@ -175,10 +175,11 @@ fn run(
         max_step *= BOUND_GROWTH;
         accept(state, &mut scratch.next, method.has_algorithmic_acceleration());
         energy = checked;
-        system.step_accepted(&scratch.next, state, h);
         counts.steps += 1;
         done += h;
+        // works depend on the time at the end of the step
         state.time = if last { end } else { end - (horizon - done) };
+        system.step_accepted(&scratch.next, state, h);
         system.state_reached(state);
         if last {
             break;

@@ -181,6 +181,8 @@ impl Equations<'_> {
         reactions.iter_mut().chain([&mut missed, &mut inertia]).for_each(|x| x.resize(range.len(), 0.0));
         let change = |k: usize| after.v[k] - before.v[k];
         inertia.iter_mut().zip(range.clone()).for_each(|(dv, k)| *dv = change(k));
+        // the mass of the element at a reel is that of the middle of the step
+        self.system.set_feeds(self.model, before.time + 0.5 * h);
         self.system.mass.multiply(self.system.level, &inertia, &mut missed);
         for (state, reaction) in [before, after].into_iter().zip(&mut reactions) {
             let [q, v, a] = [&state.q, &state.v, &state.memory.acceleration].map(|x| &x[range.clone()]);
@@ -203,9 +205,7 @@ impl Equations<'_> {
             }
             let at = 6 * node;
             let mean = Vector3::from_fn(|x, _| 0.5 * h * (r0[at + x] + r1[at + x]));
-            // the mass of an element at a reel changes
-            let feeds = !self.system.feeds.is_empty();
-            let impulse = if feeds { mean } else { self.impulse_at(held, &missed) };
+            let impulse = self.impulse_at(held, &missed);
             let resolved = (impulse - mean).norm() <= 0.5 * impulse.norm();
             work +=
                 (0..3).map(|x| impulse[x] * way(at + x) / h + if resolved { beyond(at + x) } else { 0.0 }).sum::<f64>();

@@ -6,8 +6,8 @@
 
 use super::feature::Feature;
 use lariat_ancf::{
-    AxialLaw, Buoyancy, Contact, Damping, Drag, Effects, Fidelity, Flow, GravityScale, LineLoad, PointLoad, Reel,
-    RestShape, Section, Strength, Torsion, Vector3,
+    AxialLaw, Buoyancy, Contact, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad, PointLoad,
+    Reel, RestShape, Section, Strength, Surface, Torsion, Vector3, Water,
 };
 
 /// Length of the rope in m.
@@ -43,6 +43,8 @@ pub enum Kind {
     Fixed,
     /// It moves as it is told.
     Kinematic,
+    /// It turns on a curved path.
+    Turning,
     /// It moves freely.
     Dynamic,
     /// It turns on a hinge, an impulse joint.
@@ -104,12 +106,14 @@ pub struct Draft {
     pub effects: Effects,
     /// Whether a force per length of a program acts.
     pub force_density: bool,
-    /// A point load.
-    pub load: Option<PointLoad>,
+    /// Point loads.
+    pub loads: Vec<PointLoad>,
     /// What it withstands, if not all.
     pub strength: Option<Strength>,
     /// Whether it is cut.
     pub cut: bool,
+    /// Water that its free bodies are in.
+    pub water: Option<Water>,
     /// What it can touch.
     pub things: Vec<Thing>,
     /// Its fidelity; that of the set without.
@@ -136,9 +140,10 @@ impl Draft {
             wound: [None, None],
             effects: Effects::default(),
             force_density: false,
-            load: None,
+            loads: Vec::new(),
             strength: None,
             cut: false,
+            water: None,
             things: Vec::new(),
             fidelity: None,
             elements: elements(features),
@@ -173,6 +178,7 @@ impl Draft {
             Feature::Prescribed => self.hold(Hold::Motion),
             Feature::FixedBody => self.hold(Hold::Body(Kind::Fixed)),
             Feature::KinematicBody => self.hold(Hold::Body(Kind::Kinematic)),
+            Feature::TurningPath => self.hold(Hold::Body(Kind::Turning)),
             Feature::DynamicBody => self.carry(Kind::Dynamic),
             Feature::ImpulseJoint => self.carry(Kind::Impulse),
             Feature::MultibodyJoint => self.carry(Kind::Multibody),
@@ -205,11 +211,21 @@ impl Draft {
                 effects.torsion = Some(Torsion { initial_twist: 0.5, damping: 0.2, ..Torsion::new(1e-3) });
                 self.clamps = true;
             }
+            Feature::Stranded => {
+                effects.torsion = Some(Torsion { damping: 1.0, ..Torsion::stranded(1e-3, 0.1, 0.02) });
+                self.clamps = true;
+            }
+            Feature::Water => {
+                effects.drag = Some(Drag { diameter: Some(0.02), ..water().drag(1.2, 0.02) });
+                self.water = Some(water());
+                self.carry(Kind::Dynamic);
+            }
             Feature::RestShape => effects.rest_shape = Some(RestShape::curved(2.0)),
             Feature::GravityScale => effects.gravity_scale = Some(GravityScale(0.8)),
             Feature::LineLoad => effects.line_loads = Some(LineLoad::uniform(Vector3::new(0.0, 0.0, 0.3)).into()),
             Feature::ForceDensity => self.force_density = true,
-            Feature::PointLoad => self.load = Some(PointLoad::force(0.8, Vector3::new(0.0, -0.3, 0.5))),
+            Feature::PointLoad => self.loads.push(PointLoad::force(0.8, Vector3::new(0.0, -0.3, 0.5))),
+            Feature::LoadHistory => self.loads.push(varying(0.0)),
             Feature::HookeLaw => effects.axial_law = Some(AxialLaw::Hooke),
             Feature::RopeLaw => effects.axial_law = Some(AxialLaw::Rope),
             Feature::CurveLaw => {
@@ -219,6 +235,7 @@ impl Draft {
             Feature::Cut => self.cut = true,
             Feature::Game => self.fidelity = Some(Fidelity::Game),
             Feature::Engineering => self.fidelity = Some(Fidelity::Engineering),
+            Feature::Adaptive => self.fidelity = Some(Fidelity::Custom(Integrator::ADAPTIVE)),
             Feature::Statics => self.rests = true,
             Feature::Snapshot | Feature::Sleep | Feature::ErrorTarget => {}
         }
@@ -287,6 +304,20 @@ fn elements(features: &[Feature]) -> usize {
         _ if features.contains(&Feature::Statics) => 16,
         _ => 6,
     }
+}
+
+/// Returns water with a level at the drawing, which is a little above the middle of its bodies, and a
+/// current.
+pub fn water() -> Water {
+    let surface = Surface::at(0.01, Vector3::new(0.0, -9.81, 0.0));
+    Water::new(300.0).with_flow(Flow::uniform(Vector3::new(0.3, 0.0, 0.4)).with_surface(surface))
+}
+
+/// Returns a force that grows, turns round and fades from a time (s) on; its corners are at host
+/// times.
+pub fn varying(start: f64) -> PointLoad {
+    let rows = [[0.0, 0.0], [0.1, 1.0], [0.3, -0.8], [0.5, 0.2], [0.6, 0.0]];
+    PointLoad::force(0.7, Vector3::new(0.0, 0.3, 0.6)).with_history(rows.map(|[time, factor]| [start + time, factor]))
 }
 
 /// Sets drag in a fluid of 100 kg/m^3, 2 cm thick, that flows within a fifth of a second.

@@ -40,6 +40,8 @@ features! {
     FixedBody = "fixed body",
     /// An end on a kinematic body that moves.
     KinematicBody = "kinematic body",
+    /// An end on a kinematic body that turns on a curved path.
+    TurningPath = "path that turns",
     /// A free dynamic body.
     DynamicBody = "dynamic body",
     /// A body on an impulse joint.
@@ -78,10 +80,14 @@ features! {
     Current = "current that grows",
     /// Buoyancy and added mass.
     Buoyancy = "buoyancy",
+    /// Water with a level and a current, a cable and a body in it.
+    Water = "water",
     /// A rest shape.
     RestShape = "rest shape",
     /// Torsion, twisted as built, between clamps.
     Torsion = "torsion",
+    /// Torsion of a stranded rope, whose tension makes a torque.
+    Stranded = "stranded torsion",
     /// Gravity scaled for one cable.
     GravityScale = "scaled gravity",
     /// A line load.
@@ -90,6 +96,8 @@ features! {
     ForceDensity = "force density",
     /// A point load.
     PointLoad = "point load",
+    /// A point load with a history.
+    LoadHistory = "load that varies",
     /// Hooke's law.
     HookeLaw = "Hooke's law",
     /// A law that cannot push.
@@ -112,6 +120,8 @@ features! {
     Game = "game",
     /// Fidelity engineering.
     Engineering = "engineering",
+    /// Steps of the discrete gradient by its own estimate.
+    Adaptive = "adaptive steps",
 }
 
 use Feature::*;
@@ -122,10 +132,10 @@ impl Feature {
         Some(match self {
             TouchesFloor | TouchesMoving | TouchesLoose | TouchesItself | TouchesCable => "contact",
             AxialDamping | BendingDamping => "damping",
-            Drag | Current => "drag",
+            Drag | Current | Water => "drag",
             Buoyancy => "buoyancy",
             RestShape => "rest_shape",
-            Torsion => "torsion",
+            Torsion | Stranded => "torsion",
             GravityScale => "gravity_scale",
             LineLoad => "line_load",
             ForceDensity => "force_density",
@@ -137,10 +147,10 @@ impl Feature {
     /// Returns the term of a step that it brings, as the mechanics lists it.
     pub fn term(self) -> &'static str {
         match self {
-            FixedBody | KinematicBody => "pins",
-            DynamicBody | ImpulseJoint | MultibodyJoint => "bodies",
+            FixedBody | KinematicBody | TurningPath => "pins",
+            DynamicBody | ImpulseJoint | MultibodyJoint | Water => "bodies",
             ReelByRate | ReelByForce | ReelBrake | FreeSpool | Sheave | Drum => "reels",
-            Torsion => "torsion",
+            Torsion | Stranded => "torsion",
             feature if feature.is_contact() => "contacts",
             _ => "cables",
         }
@@ -153,7 +163,7 @@ impl Feature {
 
     /// Whether it holds an end in place or direction.
     pub fn is_support(self) -> bool {
-        matches!(self, Held | Clamped | Prescribed | FixedBody | KinematicBody)
+        matches!(self, Held | Clamped | Prescribed | FixedBody | KinematicBody | TurningPath)
     }
 
     /// Whether it is a body that cables move.
@@ -168,19 +178,25 @@ impl Feature {
 
     /// Whether it is something that is done with a scene, and adds nothing to it.
     pub fn is_procedure(self) -> bool {
-        matches!(self, Statics | Snapshot | Sleep | ErrorTarget | Game | Engineering)
+        matches!(self, Statics | Snapshot | Sleep | ErrorTarget | Game | Engineering | Adaptive)
     }
 
     /// Whether a system that has it, and no more, keeps its momentum: nothing acts from outside.
     pub fn keeps_momentum(self) -> bool {
         let internal = matches!(self, DynamicBody | TouchesLoose | TouchesItself | TouchesCable | Break | Cut);
-        let own = matches!(self, AxialDamping | BendingDamping | RestShape | Torsion | HookeLaw | RopeLaw | CurveLaw);
-        internal || own || matches!(self, Snapshot | Game | Engineering)
+        let own = matches!(
+            self,
+            AxialDamping | BendingDamping | RestShape | Torsion | Stranded | HookeLaw | RopeLaw | CurveLaw
+        );
+        internal || own || matches!(self, Snapshot | Game | Engineering | Adaptive)
     }
 
     /// Whether a cable in equilibrium that has it rests for ever.
     pub fn rests(self) -> bool {
-        let moves = matches!(self, Prescribed | KinematicBody | TouchesMoving | Current | ForceDensity);
+        let moves = matches!(
+            self,
+            Prescribed | KinematicBody | TurningPath | TouchesMoving | Current | ForceDensity | LoadHistory
+        );
         let falls = matches!(self, TouchesLoose | Cut | Break);
         !(moves || falls || self.is_reel())
     }

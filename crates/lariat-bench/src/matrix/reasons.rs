@@ -8,8 +8,9 @@ pub fn reason(pair: Pair) -> Option<&'static str> {
     let winds = |feature: &Feature| feature.is_reel() || *feature == Feature::Sheave;
     match pair {
         _ if both(&[Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) => Some("a cable has one axial law"),
-        _ if both(&[Feature::Drag, Feature::Current]) => Some("a fluid rests or flows"),
-        _ if both(&[Feature::Game, Feature::Engineering]) => Some("a cable has one integrator"),
+        _ if both(&[Feature::Drag, Feature::Current, Feature::Water]) => Some("a cable is in one fluid"),
+        _ if both(&[Feature::Game, Feature::Engineering, Feature::Adaptive]) => Some("a cable has one integrator"),
+        _ if both(&[Feature::Torsion, Feature::Stranded]) => Some("a cable has one law of torsion"),
         // it has added mass
         _ if pair.has(Feature::Buoyancy) && pair.both().iter().any(winds) => {
             Some("added mass acts along a cable as across it, and what comes out along itself moves no fluid")

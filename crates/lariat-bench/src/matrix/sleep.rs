@@ -10,7 +10,7 @@
 //!
 //! Asking whether the cable is awake: a cable that woke too late would pass.
 
-use super::draft::{Draft, Hold, Kind, Wound};
+use super::draft::{Draft, Hold, Kind, Wound, varying, water};
 use super::feature::Feature;
 use super::laws::{Ended, STEP, apart};
 use super::scene::{Fault, Scene};
@@ -51,8 +51,16 @@ fn draft(feature: Feature) -> Draft {
         let flow = Flow::uniform(Vector3::new(0.5, 0.0, 0.5)).with_history([[CHANGE, 0.0], [CHANGE + 0.1, 1.0]]);
         draft.effects.drag.iter_mut().for_each(|drag| drag.flow = flow.clone());
     }
+    if feature == Feature::Water {
+        // at rest until it changes
+        draft.water.iter_mut().for_each(|water| water.flow.velocity = Vector3::zeros());
+        draft.effects.drag.iter_mut().for_each(|drag| drag.flow.velocity = Vector3::zeros());
+    }
     if feature == Feature::PointLoad {
-        draft.load = Some(PointLoad { start: CHANGE, ..PointLoad::force(0.8, Vector3::new(0.0, 0.0, 1.0)) });
+        draft.loads = vec![PointLoad { start: CHANGE, ..PointLoad::force(0.8, Vector3::new(0.0, 0.0, 1.0)) }];
+    }
+    if feature == Feature::LoadHistory {
+        draft.loads = vec![varying(CHANGE)];
     }
     if matches!(feature, Feature::LineLoad | Feature::Buoyancy | Feature::RestShape | Feature::GravityScale) {
         // given when it changes
@@ -88,6 +96,11 @@ fn change(scene: &mut Scene, feature: Feature) -> Result<(), Fault> {
             cable.set_buoyancy(Some(buoyancy))
         }),
         Feature::RestShape => cable(scene, &|cable| cable.set_rest_shape(Some(RestShape::stretched(0.97)))),
+        Feature::Water => {
+            let flowing = water();
+            scene.set.water_mut().ok_or("no water")?.set_water(flowing)?;
+            Ok(())
+        }
         Feature::GravityScale => cable(scene, &|cable| cable.set_gravity_scale(Some(GravityScale(-2.0)))),
         Feature::Break => {
             scene.set.set_strength(rope, Strength::tension(1.0))?;
@@ -114,6 +127,7 @@ fn changes(feature: Feature) -> bool {
             | Feature::BendingDamping
             | Feature::Drag
             | Feature::Torsion
+            | Feature::Stranded
             | Feature::HookeLaw
             | Feature::RopeLaw
             | Feature::CurveLaw

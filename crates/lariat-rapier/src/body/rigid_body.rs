@@ -6,17 +6,24 @@ use crate::convert::{matrix, rotation, vector};
 use crate::error::{BodyQuantity, Error};
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::island::RigidBody;
-use rapier::dynamics::{LockedAxes, RigidBody as RapierBody, RigidBodyHandle};
+use rapier::dynamics::{LockedAxes, Multibody, RigidBody as RapierBody, RigidBodyHandle};
 use rapier::geometry::Collider;
 use rapier::pipeline::PhysicsWorld;
 
-/// Returns whether the coupling integrates a body: dynamic, enabled, of finite mass. The motion of
-/// others is prescribed to their cables.
+/// Returns whether the coupling integrates a body: dynamic, enabled, of finite mass, and not welded
+/// to a fixed one. The motion of others is prescribed to their cables.
 pub(crate) fn is_integrated(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
-    world
-        .bodies
-        .get(handle)
-        .is_some_and(|b| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0)
+    let moves = |b: &RapierBody| b.is_dynamic() && b.is_enabled() && b.mass_properties().local_mprops.inv_mass > 0.0;
+    world.bodies.get(handle).is_some_and(moves) && !is_welded(world, handle)
+}
+
+/// Returns whether a body is a link of a multibody without a degree of freedom on a fixed body: it
+/// does not move, and Rapier has no mass matrix that says so.
+fn is_welded(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    let link = world.multibody_joints.rigid_body_link(handle);
+    let multibody = link.and_then(|link| world.multibody_joints.get_multibody(link.multibody));
+    let root = |multibody: &Multibody| world.bodies.get(multibody.root().rigid_body_handle());
+    multibody.is_some_and(|m| m.ndofs() == 0 && root(m).is_some_and(RapierBody::is_fixed))
 }
 
 /// Makes Rapier compute the mass of a body that has none yet: one that was given a mass besides its

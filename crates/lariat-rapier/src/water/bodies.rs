@@ -138,9 +138,27 @@ impl BodiesInWater {
         self.time = time;
     }
 
-    /// Returns the work in J of the water on a body since it is in it.
+    /// Returns the work in J of the water on a body since it is in it: that of buoyancy, wave and
+    /// drag, and what the body gained as it took up or left its added mass. What balances the
+    /// weight of the added mass is no force of the water.
     pub fn work(&self, body: RigidBodyHandle) -> Option<f64> {
         self.members.iter().find(|m| m.body == body).map(|m| m.work)
+    }
+
+    /// Returns the energy in J that the substeps of Rapier took from a body since it is in water:
+    ///
+    /// ```text
+    /// kinetic energy + m g y - work of water and loads + lost = constant
+    /// lost = sum over Rapier steps of (m |dv|^2 + dw.I dw)/(2 n)
+    /// ```
+    ///
+    /// A Rapier step of length h with a constant force moves a body in n substeps of the symplectic
+    /// Euler method by h (v + (n + 1)/(2 n) dv), with the change of velocity dv; the mean velocity
+    /// would move it by h (v + dv/2), and the force does work m |dv|^2/(2 n) over the rest. The law
+    /// is exact for a body that nothing else acts on, but for the gyroscopic part of a rotation. Of
+    /// a body with cables it is 0: its motion is that of the constant force.
+    pub fn lost_in_substeps(&self, body: RigidBodyHandle) -> Option<f64> {
+        self.members.iter().find(|m| m.body == body).map(|m| m.substeps)
     }
 
     /// Returns the largest angular frequency in rad/s with which a body heaves that the surface

@@ -3,8 +3,9 @@
 use super::drag::{mean_drag, midpoint};
 use super::hull::{Hull, Wet};
 use super::immersed::Immersed;
+use super::rise::{Rising, bisect};
 use crate::convert::{rotation, symmetric_inertia, to_vector, vector};
-use crate::scales::water::{HEIGHT_ROUNDS, SAME_DRAG, SMALL_ANGLE, SMALLEST_RISE, STEP_ROUNDS};
+use crate::scales::water::{SAME_DRAG, SMALL_ANGLE, STEP_ROUNDS};
 use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use lariat_ancf::island::LoadThere;
 use lariat_ancf::{Sea, Water};
@@ -25,6 +26,12 @@ struct Memory {
     drag: Vector3<f64>,
 }
 
+/// Returns the inertia about the centre of mass in kg m^2, in world axes.
+fn world_inertia(body: &RigidBody) -> Matrix3<f64> {
+    let turn = rotation(*body.rotation()).to_rotation_matrix();
+    turn * symmetric_inertia(body) * turn.transpose()
+}
+
 /// What acts on a body in a Rapier step.
 #[derive(Clone, Copy, Debug)]
 struct Acting {
@@ -35,6 +42,12 @@ struct Acting {
     memory: Memory,
     /// Centre of mass in m and attitude, at the beginning.
     place: (Vector3<f64>, UnitQuaternion<f64>),
+    /// Velocity in m/s and spin in rad/s, at the beginning.
+    velocity: [Vector3<f64>; 2],
+    /// What balances the weight of the added mass in N.
+    balance: Vector3<f64>,
+    /// Share of the step by which the position is ahead.
+    lead: f64,
 }
 
 /// A body in water.
@@ -53,6 +66,9 @@ pub(super) struct Member {
     memory: Memory,
     /// Work of the water on it in J.
     pub(super) work: f64,
+    /// What Rapier's substeps took from it in J.
+    #[serde(default)]
+    pub(super) substeps: f64,
     #[serde(skip)]
     acting: Option<Acting>,
 }
@@ -90,13 +106,23 @@ pub(super) struct Input<'a> {
     pub(super) lead: f64,
 }
 
+/// What acts on a body in a step, and where.
+struct InStep {
+    /// Centroid of its volume in m, in the middle of the step.
+    middle: Vector3<f64>,
+    wet: Wet,
+    pressure: Vector3<f64>,
+    inertia: Vector3<f64>,
+    /// Half the density times the share that is wet.
+    factor: f64,
+    drag: Vector3<f64>,
+}
+
 /// A body in a step.
 struct Place {
     /// Centroid of its volume in m, in the middle of the step but for the height, at its beginning.
     centre: Vector3<f64>,
     rotation: UnitQuaternion<f64>,
-    mass: f64,
-    velocity: Vector3<f64>,
 }
 
 impl Member {
@@ -104,7 +130,7 @@ impl Member {
     /// it floats.
     pub(super) fn new(body: RigidBodyHandle, hull: Hull, immersed: Immersed, (added, floating): (f64, f64)) -> Self {
         let memory = Memory::default();
-        Member { body, hull, immersed, added, dry: false, floating, memory, work: 0.0, acting: None }
+        Member { body, hull, immersed, added, dry: false, floating, memory, work: 0.0, substeps: 0.0, acting: None }
     }
 
     /// Returns the volume in m^3.
@@ -230,7 +256,8 @@ impl Member {
         let memory = self.memory;
         let (force, turned) = self.force(body, input);
         let (centre, scale) = (vector(body.local_center_of_mass()), f64::from(body.gravity_scale()));
-        let sum = force.pressure + force.drag + force.inertia - input.gravity * (scale * self.carried());
+        let balance = input.gravity * (-scale * self.carried());
+        let sum = force.pressure + force.drag + force.inertia + balance;
         let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
             + (turned * (force.drag_point - centre)).cross(&force.drag)
             + force.moment;
@@ -239,13 +266,14 @@ impl Member {
         body.add_torque(to_vector(&moment), false);
         let with = [body.user_force(), body.user_torque()];
         let place = (vector(body.center_of_mass()), rotation(*body.rotation()));
-        self.acting = Some(Acting { own, with, memory, place });
+        let velocity = [vector(body.linvel()), vector(body.angvel())];
+        self.acting = Some(Acting { own, with, memory, place, velocity, balance, lead: input.lead / input.h });
     }
 
     /// Takes the force of the last step off a body, if it is still there: after the step, whose
     /// work it adds, or without one.
     pub(super) fn take_off(&mut self, body: Option<&mut RigidBody>, stepped: bool) {
-        let Some(Acting { own, with, memory, place }) = self.acting.take() else { return };
+        let Some(Acting { own, with, memory, place, velocity, balance, lead }) = self.acting.take() else { return };
         if !stepped {
             self.memory = memory;
         }
@@ -260,7 +288,10 @@ impl Member {
         if stepped {
             let turn = (rotation(*body.rotation()) * place.1.inverse()).scaled_axis();
             let [force, torque] = [0, 1].map(|i| vector(with[i]) - vector(own[i]));
-            self.work += force.dot(&(vector(body.center_of_mass()) - place.0)) + torque.dot(&turn);
+            let moved = vector(body.center_of_mass()) - place.0;
+            self.work += (force - balance).dot(&moved) + torque.dot(&turn);
+            let [dv, dw] = [vector(body.linvel()) - velocity[0], vector(body.angvel()) - velocity[1]];
+            self.substeps += lead * (f64::from(body.mass()) * dv.norm_squared() + dw.dot(&(world_inertia(body) * dw)));
         }
     }
 
@@ -278,21 +309,21 @@ impl Member {
         let start = vector(body.center_of_mass()) - velocity * lead + arm;
         let up = sea.map_or(Vector3::zeros(), |sea| sea.up());
         let across = velocity - up * up.dot(&velocity);
-        let place = Place { centre: start + across * half, rotation: turned, mass, velocity };
+        let place = Place { centre: start + across * half, rotation: turned };
         let moments = symmetric_inertia(body).diagonal();
         let least = moments.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
         // what a force at the centroid feels of the mass
         let felt = 1.0 / (1.0 / mass + arm.norm_squared() / least);
         let to_body = |x: &Vector3<f64>| turned.inverse() * x;
-        let mut drag = self.memory.drag;
-        let mut rounds = 0;
-        loop {
-            let (volume, rise) = self.displaced(input, &place, up.dot(&(others + drag)));
+        let masses = Vector3::repeat(felt);
+        // all of it for a mean volume and a rise, with drag by its mean or, implicit, at the mean
+        // velocity
+        let acting = |(volume, rise): (f64, f64), implicit: bool| {
             let middle = place.centre + up * (0.5 * rise);
             let wet = self.wet(input, &middle, &turned);
             let at = sea.map(|sea| sea.at(time, &(middle + turned * (wet.centre - self.hull.centre()))));
             let acceleration = at.map_or(Vector3::zeros(), |at| at.acceleration);
-            let share = if self.floating > 0.0 { (wet.volume / self.floating).min(1.0) } else { 0.0 };
+            let share = if self.floating > 0.0 { (volume / self.floating).min(1.0) } else { 0.0 };
             let pressure = acceleration * (rho * wet.volume) - gravity * (rho * volume);
             let inertia = acceleration * (share * self.added);
             let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &middle).velocity);
@@ -300,50 +331,74 @@ impl Member {
             let factor = 0.5 * rho * share;
             let coefficient = self.immersed.drag_area * factor;
             let forces = to_body(&(others + pressure + inertia - acceleration * mass));
-            let masses = Vector3::repeat(felt);
-            let mean = if h <= 0.0 {
+            let drag = if h <= 0.0 {
                 -coefficient.component_mul(&relative) * relative.norm()
-            } else if rounds < STEP_ROUNDS / 4 {
-                mean_drag(&masses, &coefficient, &relative, &forces, h)
-            } else {
+            } else if implicit {
                 midpoint(&masses, &coefficient, &(relative + forces * (0.5 * h / felt)), h)
-            };
-            let change = turned * mean - drag;
-            // buoyancy depends on how far drag lets the body go
-            let settled = sea.is_none() || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm());
-            if rounds > STEP_ROUNDS {
-                // buoyancy is now that with this drag; one that would drive the body is none
-                let actual = relative + (forces + to_body(&drag)) * (0.5 * h / felt);
-                if to_body(&drag).dot(&actual) > 0.0 {
-                    drag = Vector3::zeros();
-                    continue;
-                }
-            } else if settled || h <= 0.0 {
-                drag += change;
             } else {
-                rounds += 1;
-                drag += change * if rounds < STEP_ROUNDS / 2 { 1.0 } else { 0.5 };
-                continue;
-            }
-            let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });
-            let torque = (turned * (wet.centre - vector(body.local_center_of_mass()))).cross(&pressure);
-            let inertia_matrix = symmetric_inertia(body);
-            let righting = self.righting(input, &(middle - arm), &turned, &inertia_matrix, body);
-            let torque = to_body(&(torque + righting + arm.cross(&drag) + vector(body.user_torque())));
-            let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
-            let known = known + pressure + inertia + drag;
-            self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
-            let force = WaterForce {
-                pressure,
-                pressure_point: wet.centre,
-                drag,
-                drag_point: self.hull.centre(),
-                inertia,
-                moment: turned * spin_drag + righting,
-                wet: wet.volume / self.hull.volume(),
+                mean_drag(&masses, &coefficient, &relative, &forces, h)
             };
-            return (force, turned);
-        }
+            InStep { middle, wet, pressure, inertia, factor, drag: turned * drag }
+        };
+        let rising = self.rising(input, &place);
+        let by_volume = h * half / mass * rho * -gravity.dot(&up);
+        let without_buoyancy = |drag: &Vector3<f64>| h * up.dot(&velocity) + h * half / mass * up.dot(&(others + drag));
+        let risen = |drag: &Vector3<f64>| {
+            rising.as_ref().map_or((self.hull.volume(), 0.0), |rising| rising.solve(without_buoyancy(drag), by_volume))
+        };
+        let mut drag = self.memory.drag;
+        let mut rounds = 0;
+        let now = loop {
+            let now = acting(risen(&drag), false);
+            let change = now.drag - drag;
+            // buoyancy depends on how far drag lets the body go
+            if rising.is_none() || h <= 0.0 || change.norm() <= SAME_DRAG * (drag.norm() + weight.norm()) {
+                break now;
+            }
+            rounds += 1;
+            drag += change * if rounds < STEP_ROUNDS / 2 { 1.0 } else { 0.5 };
+            if let Some(rising) = rising.as_ref().filter(|_| rounds > STEP_ROUNDS) {
+                // the rise that drag and buoyancy give, which fall as it grows, by bisection
+                // between what neither exceeds
+                let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &place.centre).velocity);
+                let still = h * up.dot(&(water.current(time, &place.centre) + wave));
+                let free = without_buoyancy(&Vector3::zeros());
+                let (low, high) =
+                    (free.min(still).min(0.0), (free + by_volume * self.hull.volume()).max(still).max(0.0));
+                let solved = |implicit: bool| {
+                    let with = |rise: f64| acting((rising.mean_volume(rise), rise), implicit);
+                    let excess = |rise: f64| {
+                        let by_buoyancy = by_volume * rising.mean_volume(rise);
+                        without_buoyancy(&with(rise).drag) + by_buoyancy - rise
+                    };
+                    let rise = bisect(low, high, excess);
+                    (with(rise), excess(rise).abs() <= SAME_DRAG * (high - low))
+                };
+                // the mean of drag that does work jumps to that of the mean velocity: there may be
+                // no root but by the latter
+                let (decaying, found) = solved(false);
+                break if found { decaying } else { solved(true).0 };
+            }
+        };
+        let InStep { middle, wet, pressure, inertia, factor, drag } = now;
+        let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });
+        let torque = (turned * (wet.centre - vector(body.local_center_of_mass()))).cross(&pressure);
+        let inertia_matrix = symmetric_inertia(body);
+        let righting = self.righting(input, &(middle - arm), &turned, &inertia_matrix, body);
+        let torque = to_body(&(torque + righting + arm.cross(&drag) + vector(body.user_torque())));
+        let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
+        let known = known + pressure + inertia + drag;
+        self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
+        let force = WaterForce {
+            pressure,
+            pressure_point: wet.centre,
+            drag,
+            drag_point: self.hull.centre(),
+            inertia,
+            moment: turned * spin_drag + righting,
+            wet: wet.volume / self.hull.volume(),
+        };
+        (force, turned)
     }
 
     /// Returns by how much the mean righting moment over a step, that at the attitude in its middle
@@ -403,69 +458,12 @@ impl Member {
         self.hull.below(&(rotation.inverse() * normal), depth)
     }
 
-    /// Returns the mean volume displaced over a step and the rise in it, in m: the root r of
-    /// r = h v + h^2/2m (f + rho g V(r)), V(r) the mean over the rise, which falls with it.
-    fn displaced(&self, input: &Input<'_>, place: &Place, others: f64) -> (f64, f64) {
-        let whole = self.hull.volume();
-        let Some(sea) = input.sea else { return (whole, 0.0) };
-        let up = sea.up();
-        let Input { h, water, gravity, .. } = input;
-        let (factor, weight) = (h * h / (2.0 * place.mass), water.density * -gravity.dot(&up));
+    /// Returns the body over the surface as it rises from where it is; `None` without a surface.
+    fn rising(&self, input: &Input<'_>, place: &Place) -> Option<Rising<'_>> {
+        let sea = input.sea?;
         let normal = sea.normal(input.time, &place.centre);
-        let tilt = normal.dot(&up);
+        let tilt = normal.dot(&sea.up());
         let depth = sea.depth(input.time, &place.centre) * tilt;
-        let normal = place.rotation.inverse() * normal;
-        let below = |rise: f64| self.hull.below(&normal, depth - rise * tilt);
-        // volume times the depth of its centroid: its derivative by the depth is the volume
-        let moment = |wet: &Wet, rise: f64| {
-            wet.volume * (depth / tilt - rise - normal.dot(&(wet.centre - self.hull.centre())) / tilt)
-        };
-        let first = below(0.0);
-        let start = moment(&first, 0.0);
-        let mean = |rise: f64| {
-            let last = below(rise);
-            if first.volume == last.volume && (first.volume == whole || first.volume == 0.0) {
-                first.volume
-            } else if rise.abs() < SMALLEST_RISE * self.hull.radius() {
-                below(0.5 * rise).volume
-            } else {
-                ((start - moment(&last, rise)) / rise).clamp(0.0, whole)
-            }
-        };
-        let uniform = h * up.dot(&place.velocity) + factor * others;
-        let excess = |rise: f64, volume: f64| uniform + factor * weight * volume - rise;
-        let (mut low, mut high) = (uniform, uniform + factor * weight.max(0.0) * whole);
-        if low >= high {
-            return (mean(low), low);
-        }
-        let [dry, wet] = [mean(low), mean(high)];
-        let [mut at_low, mut at_high] = [excess(low, dry), excess(high, wet)];
-        if at_low <= 0.0 {
-            return (dry, low);
-        }
-        if at_high >= 0.0 {
-            return (wet, high);
-        }
-        // false position after Illinois
-        let (mut side, mut found) = (0, (dry, low));
-        for _ in 0..HEIGHT_ROUNDS {
-            let rise = low + (high - low) * (at_low / (at_low - at_high));
-            let volume = mean(rise);
-            let here = excess(rise, volume);
-            found = (volume, rise);
-            if here.abs() <= f64::EPSILON * self.hull.radius() {
-                break;
-            }
-            if here > 0.0 {
-                (low, at_low) = (rise, here);
-                at_high *= if side == 1 { 0.5 } else { 1.0 };
-                side = 1;
-            } else {
-                (high, at_high) = (rise, here);
-                at_low *= if side == -1 { 0.5 } else { 1.0 };
-                side = -1;
-            }
-        }
-        found
+        Some(Rising::new(&self.hull, place.rotation.inverse() * normal, tilt, depth))
     }
 }

@@ -44,7 +44,10 @@
 //!
 //! V_s d is the energy of the displaced water over rho g, so an undamped float that heaves keeps
 //! its energy, whatever the step. The righting moment is that of the attitude in the middle of the
-//! step, to first order, which is stable for any float. Drag does not reverse a velocity.
+//! step, to first order, which is stable for any float. Drag does not reverse a velocity; its share
+//! is s = min(1, V^/V_r), so that what leaves the water within a step is held back as long as
+//! buoyancy pushes it. Where drag and buoyancy do not come to agree by iteration, the rise that
+//! both give is found by bisection.
 //!
 //! # Validity
 //!
@@ -59,7 +62,12 @@
 //! - Rapier steps of less than half a period of heave and roll, into which host steps are split
 //!   ([`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps)). Beyond that the motion of
 //!   a light float is bounded by its energy, but what does not damp within a step goes on.
-//! - No lift, and no moment of drag but that about the centroid.
+//! - No lift, and no moment of drag but that about the centroid. Drag of a body that rises fast
+//!   through the surface pushes its centroid down while buoyancy pushes the wet part up, which
+//!   turns it over: give it drag of rotation.
+//! - Rapier moves a body without cables by substeps, which are ahead by half a substep of the
+//!   change of its velocity: its place is of first order in the step, its velocity of second.
+//!   [`BodiesInWater::lost_in_substeps`] is the energy of that.
 //! - The volume is that of the [colliders](hull), exact for balls, boxes and meshes at every
 //!   attitude; cylinders, cones and capsules are prisms of the same volume.
 //! - What cables, contacts and joints do to a body is not known before the step: drag expects of it
@@ -83,6 +91,7 @@ pub mod drag;
 pub mod hull;
 mod immersed;
 mod member;
+mod rise;
 mod still;
 
 pub use bodies::BodiesInWater;

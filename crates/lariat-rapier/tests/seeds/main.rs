@@ -11,3 +11,4 @@ mod contacts;
 mod pendulums;
 mod rotors;
 mod winches;
+mod worlds;

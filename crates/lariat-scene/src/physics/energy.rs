@@ -8,6 +8,7 @@ use lariat_ancf::Vector3;
 use lariat_rapier::CableHandle;
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::water::BodiesInWater;
 use nalgebra::UnitQuaternion;
 
 /// Energy of a dynamic body and work on it, in J.
@@ -16,9 +17,9 @@ use nalgebra::UnitQuaternion;
 pub struct BodyTerms {
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Potential of gravity.
+    /// Potential of gravity, without its added mass.
     pub gravity: f64,
-    /// Work of loads and of water on it.
+    /// Work of loads and of water on it, less what the substeps of Rapier take.
     pub loads: f64,
     /// Work of its cables on it.
     pub cables: f64,
@@ -80,7 +81,10 @@ impl Physics {
             let place = origin + attachment.anchor.map_or(0.0, |anchor| anchor.norm());
             on_body[body].1 += reading.force.norm() * place * f64::from(RAPIER_STEPS) * f64::from(f32::EPSILON);
         }
-        let water = |body| self.cables.water().and_then(|water| water.work(body)).unwrap_or(0.0);
+        let of_water = |water: &BodiesInWater, body| Some(water.work(body)? - water.lost_in_substeps(body)?);
+        let water = |body| self.cables.water().and_then(|water| of_water(water, body)).unwrap_or(0.0);
+        // added mass has no weight
+        let added = |body| self.cables.water().map_or(0.0, |water| water.added_mass(body));
         for (index, _) in scene.bodies.iter().enumerate().filter(|(_, body)| body.kind == BodyKind::Dynamic) {
             let handle = self.bodies[index];
             let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
@@ -92,7 +96,7 @@ impl Physics {
             rounding += if free { 0.0 } else { of_rounding };
             terms.push(BodyTerms {
                 kinetic: rigid.kinetic_energy(),
-                gravity: -rigid.mass * scene.gravity.dot(&rigid.position),
+                gravity: (added(handle) - rigid.mass) * scene.gravity.dot(&rigid.position),
                 loads: self.load_work[index] + water(handle),
                 cables,
                 in_law: wound

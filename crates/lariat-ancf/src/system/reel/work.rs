@@ -15,6 +15,10 @@
 //! With stock that rides with the body at the eye, which is a part of the system, the power is `l'
 //! (B + 1/2 rho l'^2 f^2)`.
 //!
+//! What holds an eye that moves does the work of the force at its section over its own motion: in
+//! axes that move with a velocity V the energies differ by V times momentum and by V^2/2 times
+//! mass, and the laws above give the same B and pull.
+//!
 //! Stock leaves a drum with the rate of the reel. In a bag it lies at rest and is set in motion
 //! without loss; in a coil by an inelastic impact, so that a falling chain obeys `m g = d(m v)/dt`.
 //! Both differ from a drum while cable is paid out.
@@ -225,7 +229,7 @@ fn entering(element: &VariableLength, weight: &[f64; 3], q: &[f64; 12], v: &[f64
     let mut sum = 0.0;
     for x in 0..3 {
         let speed = v[6 + x] - rate * q[9 + x];
-        sum += element.inertia * (-rate * speed * q[9 + x] - 0.5 * speed * speed) - weight[x] * q[6 + x];
+        sum += 0.5 * element.inertia * speed * speed - weight[x] * q[6 + x];
     }
     sum
 }

@@ -7,6 +7,7 @@ use lariat_ancf::{
     At, Cable, CableBuilder, CablePoint, Contact, Damping, Fidelity, ForceDensity, Motion, Reel, Support, Vector3,
 };
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::water::{BodiesInWater, Immersed};
 use lariat_rapier::{AttachmentKind, CableHandle, Drum, SheaveOptions};
 use std::sync::Arc;
 
@@ -18,6 +19,30 @@ const DRUM: f64 = 0.1;
 const MASS: Real = 0.25;
 /// Half side of a body in m.
 const HALF: f64 = 0.04;
+/// A body that turns on a path: from rest, along a curve and about an axis that is none of its own.
+#[derive(Clone, Debug)]
+pub(super) struct Turning {
+    /// The body.
+    pub body: RigidBodyHandle,
+    /// Where it begins, in m.
+    pub centre: Vector3<f64>,
+    /// When it begins, in s.
+    pub from: f64,
+}
+
+impl Turning {
+    /// Leads the body to where it is at a time in s.
+    pub fn lead(&self, physics: &mut PhysicsWorld, time: f64) {
+        let since = time - self.from;
+        // a body that is led to where it is does not wake up its cable
+        let Some(body) = physics.bodies.get_mut(self.body).filter(|_| since > 0.0) else { return };
+        let along = |rate: f64| 1.0 - (rate * since).cos();
+        let place = self.centre + Vector3::new(0.02 * along(5.0), 0.1 * along(3.0), 0.08 * along(2.0));
+        let turn = Vector3::new(0.3, 0.2, 0.8) * along(3.0);
+        body.set_next_kinematic_position(Pose::new(to_rapier(place.into()), to_rapier(turn.into())));
+    }
+}
+
 /// A force per length of a program, in N/m: a push that swings in time and grows with height.
 #[derive(Debug)]
 pub(super) struct Swing {
@@ -62,7 +87,7 @@ impl Scene {
             self.hold(&draft, cable, (at, share), hold)?;
         }
         if let Some(kind) = draft.middle {
-            let body = self.add_body(&draft, kind, 0.75);
+            let body = self.add_body(&draft, kind, 0.75)?;
             let along = if draft.sheave { 0.5 } else { 0.75 };
             let at = along * self.set.get(last)?.length();
             self.set.attach_here(&self.physics, last, At::ArcLength(at), body, AttachmentKind::Ball)?;
@@ -85,7 +110,7 @@ impl Scene {
 
     fn add_one(&mut self, draft: &Draft, elements: usize) -> Result<(CableHandle, CableHandle), Fault> {
         let rope = self.add_rope(draft, draft.points(), elements)?;
-        if let Some(load) = draft.load.clone() {
+        for load in draft.loads.clone() {
             self.set.get_mut(rope)?.add_load(load)?;
         }
         Ok((rope, rope))
@@ -104,7 +129,7 @@ impl Scene {
         let last = self.add_rope(draft, last, elements.div_ceil(2).max(3))?;
         self.set.attach_here(&self.physics, first, At::End, block, AttachmentKind::Ball)?;
         self.set.attach_here(&self.physics, last, At::Start, block, AttachmentKind::Ball)?;
-        if let Some(load) = draft.load.clone() {
+        for load in draft.loads.clone() {
             let length = self.set.get(last)?.length();
             let load = lariat_ancf::PointLoad { arc_length: load.arc_length / LENGTH * length, ..load };
             self.set.get_mut(last)?.add_load(load)?;
@@ -151,7 +176,7 @@ impl Scene {
                 cable.set_support(at, support)?;
             }
             Hold::Body(kind) => {
-                let body = self.add_body(draft, kind, share);
+                let body = self.add_body(draft, kind, share)?;
                 let kind = if draft.clamps { AttachmentKind::Clamp } else { AttachmentKind::Ball };
                 self.set.attach_here(&self.physics, cable, at, body, kind)?;
             }
@@ -160,7 +185,10 @@ impl Scene {
     }
 
     /// Adds a body at a share of the drawing, beside the rope, so that the rope is on its face.
-    fn add_body(&mut self, draft: &Draft, kind: Kind, share: f64) -> RigidBodyHandle {
+    ///
+    /// # Errors
+    /// Those of the water.
+    fn add_body(&mut self, draft: &Draft, kind: Kind, share: f64) -> Result<RigidBodyHandle, Fault> {
         let point = draft.point(share);
         let aside = if share < 1.0 { Vector3::new(0.0, 0.0, HALF) } else { Vector3::new(HALF, 0.0, 0.0) };
         let aside = if share == 0.0 { Vector3::new(-HALF, 0.0, 0.0) } else { aside };
@@ -170,6 +198,7 @@ impl Scene {
         let builder = match kind {
             Kind::Fixed => RigidBodyBuilder::fixed(),
             Kind::Kinematic => RigidBodyBuilder::kinematic_velocity_based().linvel(to_rapier([0.0, 0.1, 0.1])),
+            Kind::Turning => RigidBodyBuilder::kinematic_position_based(),
             _ => RigidBodyBuilder::dynamic(),
         };
         let mut builder = builder.translation(to_rapier(centre.into())).can_sleep(draft.hangs);
@@ -180,6 +209,17 @@ impl Scene {
         }
         let half = HALF as Real;
         let body = self.physics.insert(builder, ColliderBuilder::cuboid(half, half, half).mass(MASS)).0;
+        if kind == Kind::Turning {
+            self.turning.push(Turning { body, centre, from: draft.from });
+        }
+        if let Some(water) = draft.water.clone().filter(|_| self.physics.bodies[body].is_dynamic()) {
+            if self.set.water().is_none() {
+                self.set.set_water(BodiesInWater::new(water)?);
+            }
+            let immersed = Immersed::with_drag_area([0.01; 3]).with_added_mass(0.5);
+            let bodies = self.set.water_mut().ok_or("no water")?;
+            bodies.insert(&mut self.physics, body, immersed)?;
+        }
         if matches!(kind, Kind::Impulse | Kind::Multibody) {
             // an arm of 0.2 m on a hinge beyond it
             let hinge = centre + Vector3::new(0.2, 0.0, 0.0);
@@ -191,7 +231,7 @@ impl Scene {
                 self.physics.insert_multibody_joint(post, body, joint);
             }
         }
-        body
+        Ok(body)
     }
 
     /// Puts the end of a cable, which is held by the world or a body, on a drum of 0.4 kg m^2/R^2.

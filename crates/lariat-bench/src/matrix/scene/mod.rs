@@ -5,7 +5,7 @@ mod read;
 
 use super::feature::Feature;
 use crate::single::convert::to_rapier;
-use build::Swing;
+use build::{Swing, Turning};
 use lariat_ancf::{Motion, Vector3, Warning};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableHandle, CableSet, Event};
@@ -33,6 +33,10 @@ pub struct Scene {
     cuts: Vec<(CableHandle, f64)>,
     /// When the force density of the ropes begins, in s, if they have one.
     forced: Option<f64>,
+    /// Bodies that turn on a path.
+    turning: Vec<Turning>,
+    /// Work of loads that vary, in J.
+    load_work: f64,
 }
 
 impl Scene {
@@ -56,8 +60,18 @@ impl Scene {
             let half = 0.5 * self.set.get(cable)?.length();
             self.set.cut(cable, half)?;
         }
+        let dt = f64::from(self.physics.integration_parameters.dt);
+        for turning in &self.turning {
+            turning.lead(&mut self.physics, self.time + dt);
+        }
+        let loads = self.set.iter().any(|(_, cable)| cable.loads().iter().any(|load| !load.history.is_empty()));
+        let middle = self.time + 0.5 * dt;
+        let before = if loads { self.potential_of_loads(middle)? } else { 0.0 };
         self.set.step(&mut self.physics)?;
-        self.time += f64::from(self.physics.integration_parameters.dt);
+        self.time += dt;
+        if loads {
+            self.load_work += self.potential_of_loads(middle)? - before;
+        }
         for event in self.set.take_events() {
             if let Event::Warning { warning, .. } = &event
                 && matches!(warning, Warning::EnergyMade { .. })

@@ -76,22 +76,38 @@ impl Scene {
         let mut work = 0.0;
         for (_, cable) in self.set.iter() {
             let law = cable.energy_law();
+            // that of supports has the work of bodies that do not give way, and of kinematic ones
             work += cable.effect_work().total() + law.supports + law.obstacles;
-            // loads are constant: their work is independent of the run's account, which counts all
-            // forces on bodies, too
-            for load in cable.loads() {
+            // the work of loads is independent of the run's account, which counts all forces on
+            // bodies, too
+            for load in cable.loads().iter().filter(|load| load.history.is_empty()) {
                 work += load.force.dot(&cable.sample(load.arc_length)?.position);
             }
             work += cable.inserted_energy() + cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
         }
-        for (_, attachment) in self.set.attachments() {
-            let moves = self.physics.bodies.get(attachment.body()).is_some_and(RigidBody::is_dynamic);
-            // what a body that does not give way received from its cable
-            work -= if moves { 0.0 } else { attachment.work() };
+        work += self.load_work;
+        if let Some(water) = self.set.water() {
+            let of = |body| Some(water.work(body)? - water.lost_in_substeps(body)?);
+            work += water.bodies().filter_map(of).sum::<f64>();
         }
         let scale = cables.kinetic + cables.axial + cables.bending + energy.bodies_kinetic;
         let known = self.set.drums().next().is_none();
         Ok(Ledger { kept: known.then_some(energy.total() - work), scale })
+    }
+
+    /// Returns the work in J of the loads that vary, from the origin to where they are, with the
+    /// forces of a time in s.
+    ///
+    /// # Errors
+    /// Those of the coupling.
+    pub(super) fn potential_of_loads(&self, time: f64) -> Result<f64, Fault> {
+        let mut sum = 0.0;
+        for (_, cable) in self.set.iter() {
+            for load in cable.loads().iter().filter(|load| !load.history.is_empty()) {
+                sum += load.factor(time) * load.force.dot(&cable.sample(load.arc_length)?.position);
+            }
+        }
+        Ok(sum)
     }
 
     /// Returns linear and angular momentum, in kg m/s and kg m^2/s.
