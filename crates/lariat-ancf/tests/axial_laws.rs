@@ -343,3 +343,35 @@ fn tension_at_a_sharp_turn_is_that_of_the_load() {
         }
     }
 }
+
+/// A slack rope finds one shape on every mesh and by every law that agrees in tension: elements that are half slack, which cost
+/// nothing under a law that cannot push, do not crumple on the way.
+///
+/// *Source.* Hooke's law on the same mesh, which pulls alike; the catenary differs from both by its stiffness.
+#[test]
+fn slack_ropes_that_cannot_push_find_the_shape_of_those_that_can() {
+    let lines: [&[[f64; 3]]; 2] = [&[[0.0; 3], [1.6, -2.5, 0.9], [2.3, -4.1, 0.8]], &[[0.0; 3], [3.0, 0.5, 0.0]]];
+    for points in lines {
+        let straight: f64 = points.windows(2).map(|p| (Vector3::from(p[1]) - Vector3::from(p[0])).norm()).sum();
+        for slack in [1.05, 1.2, 1.6] {
+            for elements in [6, 10, 16, 30] {
+                let middle = |law: AxialLaw| {
+                    let mut rope = Cable::builder()
+                        .points(points.iter().map(|&p| Vector3::from(p)))
+                        .length(slack * straight)
+                        .section(Section::from_stiffness(5.0e4, 2.0, 1.2).unwrap())
+                        .elements(elements)
+                        .effects(with(law))
+                        .fix(At::Start)
+                        .fix(At::End)
+                        .build()
+                        .unwrap();
+                    rope.equilibrium().unwrap();
+                    rope.sample(0.5 * rope.length()).unwrap().position
+                };
+                let (own, hooke) = (middle(AxialLaw::Rope), middle(AxialLaw::Hooke));
+                assert!((own - hooke).norm() < 2e-3, "{slack}, {elements} elements: {own} {hooke}");
+            }
+        }
+    }
+}

@@ -2,11 +2,11 @@
 
 use crate::convert::{data, object, table};
 use crate::error::{Raise, raise};
+use lariat_ancf::study::{InvalidTarget, Target};
 use lariat_scene::command;
 use lariat_scene::run::{self, Options, Recording};
 use lariat_scene::sweep::{self, Row, Source, Store};
 use lariat_scene::{Error, Purpose, Scene};
-use lariat_ancf::study::{InvalidTarget, Target};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -118,7 +118,9 @@ impl AskedError {
     fn target(self) -> PyResult<Target> {
         match self {
             AskedError::Positions(error) => Ok(error.into()),
-            AskedError::Text(text) => text.parse().map_err(|error: InvalidTarget| PyValueError::new_err(error.to_string())),
+            AskedError::Text(text) => {
+                text.parse().map_err(|error: InvalidTarget| PyValueError::new_err(error.to_string()))
+            }
         }
     }
 }

@@ -117,6 +117,11 @@ impl Cable {
         Reading { model: &self.model, system: &self.system, q, v, time: self.time(), twists }
     }
 
+    /// Returns it at other coordinates, at rest.
+    pub(crate) fn reading_at<'a>(&'a self, q: &'a [f64]) -> Reading<'a> {
+        Reading { q, v: &[], ..self.reading() }
+    }
+
     /// Returns the tension at a node between two elements, if it is continuous there.
     fn node_tension(&self, node: usize) -> Option<NodeTension> {
         if node == 0 || node == self.elements().len() {

@@ -39,9 +39,9 @@ pub(crate) trait Continued {
     fn for_each(&mut self, f: impl FnMut(&mut Cable, &[f64]));
 }
 
-/// Searches for an equilibrium under the law of contact as it is. Cables whose axial law cannot push
-/// are searched with one that can first: elements that are half slack cost no energy, and a search
-/// that crumples them on its way ends in shapes that no rope has.
+/// Searches for an equilibrium under the law of contact as it is. Cables whose axial law cannot
+/// push are searched with one that can first: elements that are half slack cost no energy, and a
+/// search that crumples them on its way ends in shapes that no rope has.
 fn search_by_laws<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure> {
     let push = |search: &mut S, pushes: bool| {
         let mut limp = false;

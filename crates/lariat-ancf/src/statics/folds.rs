@@ -96,11 +96,13 @@ pub(crate) fn first_fold(model: &Model, q: &[f64]) -> Option<usize> {
     node.or_else(|| (0..model.elements.len()).find(|&e| is_buckled(model, q, e) || is_cusped(model, q, e)))
 }
 
-/// Sets the free slopes of folded elements along the chords, with the stretch of the chords.
-pub(crate) fn straighten(model: &Model, q: &mut [f64]) {
+/// Sets the free slopes of folded elements along the chords, with the stretch of the chords, and
+/// those of one that [strains itself](super::self_stress), if there is one.
+pub(crate) fn straighten(model: &Model, q: &mut [f64], strained: Option<usize>) {
     for node in 0..model.nodes() {
         let elements = node.saturating_sub(1)..(node + 1).min(model.elements.len());
-        let folded = is_reversed(model, q, node) || elements.clone().any(|e| is_buckled(model, q, e));
+        let folded =
+            is_reversed(model, q, node) || elements.clone().any(|e| is_buckled(model, q, e) || Some(e) == strained);
         let held = model.support(node).is_some_and(|s| s.slope != SlopeSupport::Free);
         let along = elements.clone().map(|e| chord(q, e)).sum::<Vector3<f64>>();
         let length: f64 = elements.map(|e| model.elements[e].length).sum();
@@ -142,7 +144,7 @@ mod tests {
         }
         for (mut cable, element) in [(flipped, 2), (buckled, 1)] {
             assert_eq!(first_fold(&cable.model, cable.positions()), Some(element));
-            straighten(&cable.model, &mut cable.snapshot.state.q);
+            straighten(&cable.model, &mut cable.snapshot.state.q, None);
             assert_eq!(first_fold(&cable.model, cable.positions()), None);
         }
     }

@@ -42,6 +42,7 @@ mod potential;
 mod pseudo_transient;
 mod rest_in_flow;
 mod saddle;
+mod self_stress;
 mod start_shape;
 
 pub(crate) use attempt::{Budget, Failure};
@@ -50,4 +51,5 @@ pub(crate) use continuation::{Continued, find};
 pub(crate) use driven::in_shares;
 pub(crate) use folds::{first_fold, straighten};
 pub(crate) use potential::potential;
+pub(crate) use self_stress::first_self_stress;
 pub(crate) use start_shape::{lay_out, move_with_supports};

@@ -121,6 +121,12 @@ impl<'a> Reading<'a> {
         self.pull_without_torque(e, xi, state).with(self.pull_of_torque(e))
     }
 
+    /// Returns the elastic tension in N at local coordinates of an element.
+    pub fn tensions(&self, e: usize, at: [f64; 2]) -> [f64; 2] {
+        let state = self.state(e, false);
+        at.map(|xi| self.pull_without_torque(e, xi, &state).tension)
+    }
+
     /// Returns tension and strain at both ends of an element.
     pub fn ends(&self, e: usize) -> [Pull; 2] {
         let of_torque = self.pull_of_torque(e);
@@ -159,9 +165,9 @@ impl<'a> Reading<'a> {
         axial + bending
     }
 
-    /// Returns the energy in J by which the cable can recoil at most: its strain energy, the kinetic
-    /// energy of its motion about its centre of mass, and that of the centre as seen from the node
-    /// from which it moves fastest, as from one that is held.
+    /// Returns the energy in J by which the cable can recoil at most: its strain energy, the
+    /// kinetic energy of its motion about its centre of mass, and that of the centre as seen from
+    /// the node from which it moves fastest, as from one that is held.
     pub fn recoil_energy(&self) -> f64 {
         let mass = self.system.mass.matrix();
         let (total, (nodes, _)) = (mass.total(), self.v.as_chunks::<6>());

@@ -85,7 +85,7 @@ pub enum Warning {
     /// A kink at a load, a clamp or a held point is smeared over the elements beside it.
     #[error(
         "cable {cable:?}: at {arc_length_m:.4} m it turns sharply, and the mesh with `elements({elements})` is smooth there, which puts points probably {error_m:.1e} m off: try \
-         `{enough}`, or free its slope there: `kinks` of a scene, `add_kink` of a set"
+         `{enough}`, or free its slope there by `CableSet::add_kink`"
     )]
     CoarseKink {
         /// Name of the cable.

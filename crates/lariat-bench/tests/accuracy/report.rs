@@ -102,7 +102,7 @@ fn the_page_of_a_report_says_what_its_files_hold() {
         Progress::Failed(error) => panic!("{error}"),
     });
     let report = report.unwrap();
-    assert_eq!((begun.len(), done, report.sections.len()), (13, 13, 13));
+    assert_eq!((begun.len(), done, report.sections.len()), (14, 14, 14));
     assert!(compare(&out, &report) > 150);
     let page = fs::read_to_string(out.join("README.md")).unwrap();
     for block in report.sections.iter().flat_map(|section| &section.blocks) {
@@ -137,7 +137,7 @@ fn a_section_that_fails_loses_no_other() {
         failed += usize::from(matches!(progress, Progress::Failed(_)));
     });
     let report = report.unwrap();
-    assert_eq!((report.failures.len(), failed, report.sections.len()), (6, 6, 13));
+    assert_eq!((report.failures.len(), failed, report.sections.len()), (6, 6, 14));
     for file in ["table1.csv", "fidelity.csv", "effects.csv", "kernels.csv", "figure_1.svg"] {
         assert!(folder.path().join(file).exists(), "{file}");
     }

@@ -153,7 +153,7 @@ impl Acts for AxialLaw {
             _ => vec![beside(-1.0), beside(1.0)],
         };
         let spline = self.spline(stiffness);
-        let pushing = spline.slack().map(|_| spline.pushing());
+        let pushing = spline.slack().map(|_| Box::new(spline.pushing()));
         Some(LawTable { spline, points, pushing, pushes: false })
     }
 }
@@ -166,7 +166,7 @@ pub(crate) struct LawTable {
     points: Vec<Six<f64>>,
     /// Of a law that cannot push: itself with Hooke's law below zero strain, or the other way round
     /// while it [pushes](Self::push).
-    pushing: Option<Spline>,
+    pushing: Option<Box<Spline>>,
     pushes: bool,
 }
 
@@ -175,7 +175,7 @@ impl LawTable {
     pub fn push(&mut self, pushes: bool) -> bool {
         let Some(other) = &mut self.pushing else { return false };
         if self.pushes != pushes {
-            core::mem::swap(&mut self.spline, other);
+            core::mem::swap(&mut self.spline, &mut **other);
             self.pushes = pushes;
         }
         true
@@ -299,7 +299,8 @@ impl ElementForce for LawTable {
             let square = form(point, &at.g);
             self.spline.force(stretch(square)[0] - 1.0) / square.max(CRUMPLED).sqrt()
         };
-        // the stress that does work is that at the points: between a slack and a taut one strains say little
+        // the stress that does work is that at the points: between a slack and a taut one strains
+        // say little
         let stress = match &self.points[..] {
             [first, second] => {
                 let [from, to] = [stress(first), stress(second)];

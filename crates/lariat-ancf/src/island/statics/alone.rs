@@ -11,7 +11,8 @@ use crate::model::Model;
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
-    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, in_shares, lay_out, straighten,
+    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, first_self_stress, in_shares,
+    lay_out, straighten,
 };
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
@@ -76,6 +77,7 @@ impl Cable {
             }
             Err(failure) => {
                 let fold = first_fold(&self.model, self.positions());
+                let fold = fold.or_else(|| first_self_stress(self, self.positions()));
                 self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
@@ -225,12 +227,14 @@ impl Cable {
     /// Returns the report if no element is folded; else straightens the folds and minimises the
     /// energy again.
     fn without_folds(&mut self, report: EquilibriumReport, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
-        if first_fold(&self.model, self.positions()).is_none() {
+        let strained = first_self_stress(self, self.positions());
+        if strained.is_none() && first_fold(&self.model, self.positions()).is_none() {
             return Ok(report);
         }
-        straighten(&self.model, &mut self.snapshot.state.q);
+        straighten(&self.model, &mut self.snapshot.state.q, strained);
         let report = self.minimise_energy(1.0, budget)?;
-        match first_fold(&self.model, self.positions()) {
+        let fold = || first_fold(&self.model, self.positions());
+        match first_self_stress(self, self.positions()).or_else(fold) {
             None => Ok(report),
             Some(_) => Err(Failure { cause: None, residual: report.residual }),
         }
