@@ -54,7 +54,7 @@ fn taut([length, tension, ea, ei, mass]: [f64; 5], asked: f64) -> Result<Vec<Cel
     let expected = 9.81 * mass * length / (2.0 * k) * (1.0 / half.tanh() - 1.0 / half);
     let read = cable.sample(0.0).map_err(Error::from)?.moment.norm();
     Ok(vec![
-        format!("{length} m, {} kN", tension / 1e3).into(),
+        format!("{length} m at {} kN", tension / 1e3).into(),
         (100.0 * asked).into(),
         claim.as_ref().and_then(|claim| claim.forces.as_ref()?.claimed).map(|claimed| 100.0 * claimed).into(),
         (100.0 * (read / expected - 1.0).abs()).into(),
@@ -125,7 +125,7 @@ pub fn section(options: &Options) -> Result<Section, Error> {
     );
     let columns = vec![
         shown("cable", "cable", n),
-        shown("asked_percent", "asked %", n),
+        shown("asked_percent", "asked %", Format::Fixed(1)),
         shown("claimed_percent", "claimed %", Format::Fixed(2)),
         shown("true_percent", "true %", Format::Fixed(2)),
         shown("elements", "elements", n),
@@ -144,7 +144,7 @@ pub fn section(options: &Options) -> Result<Section, Error> {
          effect falls with sqrt(EI/T), here over the length of an element of eight.",
     );
     let columns = vec![
-        shown("layer", "sqrt(EI/T)/h", n),
+        shown("layer", "sqrt(EI/T)/h", Format::Fixed(2)),
         shown("kink", "kink", n),
         shown("off_2_m", "2", e1),
         shown("off_4_m", "4", e1),

@@ -101,7 +101,7 @@ fn facing(mut joint: GenericJoint, arm: Vector3<f64>) -> GenericJoint {
 
 /// Makes the world of a seed; `ropes` or without.
 fn make(seed: u64, ropes: bool) -> Made {
-    let mut r = Random::new(seed ^ 0x5eed_0f_301d5);
+    let mut r = Random::new(seed ^ 0x05ee_d0f3_01d5);
     let mut world = PhysicsWorld::new();
     let rate = r.one(&[30.0, 60.0, 120.0, 240.0, 480.0]);
     world.integration_parameters.dt = (1.0 / rate) as Real;
