@@ -8,8 +8,8 @@
 //!
 //! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid
 //! motions in the norm of the kinetic energy, so its momentum and its angular momentum stay; with
-//! reels, or with bodies that carry others, which joints may hold, the translation of its centre of
-//! mass. Of one that one point at rest holds, whose angular momentum about it is restored, it is
+//! reels, with bodies that may not turn, or that carry others, which joints may hold, the
+//! translation of its centre of mass. Of one that one point at rest holds, whose angular momentum about it is restored, it is
 //! the rotation about that point with that angular momentum. Of one whose driven bodies and
 //! supports all move as one rigid body, it is their motion. Of any other there is none, and all
 //! velocities that nothing prescribes are scaled. Scaling those of cables and bodies together keeps
@@ -138,14 +138,15 @@ fn rigid_motion(island: &mut IslandStep<'_, '_>) -> RigidMotion {
             }
         }
     }
-    for body in island.buffers.bodies.iter().filter(|body| body.free != [true; 6]) {
+    for body in island.buffers.bodies.iter().filter(|body| body.free[..3] != [true; 3]) {
         let motion = motion_of(body);
         if !body.is_driven() || !motion.agrees_with(common.get_or_insert(motion)) {
             return RigidMotion::default();
         }
     }
     common.unwrap_or_else(|| {
-        if reels || island.buffers.bodies.iter().any(BodyStep::carries) {
+        let turns = |body: &BodyStep| body.free == [true; 6] && !body.carries();
+        if reels || !island.buffers.bodies.iter().all(turns) {
             RigidMotion { velocity: mean_velocity(island), ..RigidMotion::default() }
         } else {
             projection(island, None)
