@@ -9,11 +9,11 @@
 //! Of an island that nothing holds, the rigid motion is the projection of all velocities onto rigid
 //! motions in the norm of the kinetic energy, so its momentum and its angular momentum stay; with
 //! reels, with bodies that may not turn, or that carry others, which joints may hold, the
-//! translation of its centre of mass. Of one that one point at rest holds, whose angular momentum about it is restored, it is
-//! the rotation about that point with that angular momentum. Of one whose driven bodies and
-//! supports all move as one rigid body, it is their motion. Of any other there is none, and all
-//! velocities that nothing prescribes are scaled. Scaling those of cables and bodies together keeps
-//! pinned points on their bodies.
+//! translation of its centre of mass. Of one that one point at rest holds, whose angular momentum
+//! about it is restored, it is the rotation about that point with that angular momentum. Of one
+//! whose driven bodies and supports all move as one rigid body, it is their motion. Of any other
+//! there is none, and all velocities that nothing prescribes are scaled. Scaling those of cables
+//! and bodies together keeps pinned points on their bodies.
 //!
 //! What joints hold of a body that carries others has 1e4 times its inertia, and an energy that no
 //! body of the engine has. Of such a body, with inertia B and M of its own, only `B^-1 M w` is
