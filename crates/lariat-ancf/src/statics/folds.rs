@@ -24,6 +24,8 @@
 //! element) is not folded: there the slope is across the chords. Slopes that a support holds are
 //! not judged.
 
+use super::self_stress::first_self_stress;
+use crate::cable::Cable;
 use crate::element::shape;
 use crate::model::Model;
 use crate::rule::BendingRule;
@@ -89,8 +91,14 @@ fn is_clamped_backwards(model: &Model, q: &[f64], node: usize) -> bool {
     }
 }
 
-/// Returns the first folded element.
-pub(crate) fn first_fold(model: &Model, q: &[f64]) -> Option<usize> {
+/// Returns the first element that is folded, by its slopes or as one that [strains
+/// itself](super::self_stress).
+pub(crate) fn first_fold(cable: &Cable, q: &[f64]) -> Option<usize> {
+    first_folded(&cable.model, q).or_else(|| first_self_stress(cable, q))
+}
+
+/// Returns the first element that is folded by its slopes.
+fn first_folded(model: &Model, q: &[f64]) -> Option<usize> {
     let reversed = |&i: &usize| is_reversed(model, q, i) || is_clamped_backwards(model, q, i);
     let node = (0..model.nodes()).find(reversed).map(|i| i.min(model.elements.len() - 1));
     node.or_else(|| (0..model.elements.len()).find(|&e| is_buckled(model, q, e) || is_cusped(model, q, e)))
@@ -98,7 +106,8 @@ pub(crate) fn first_fold(model: &Model, q: &[f64]) -> Option<usize> {
 
 /// Sets the free slopes of folded elements along the chords, with the stretch of the chords, and
 /// those of one that [strains itself](super::self_stress), if there is one.
-pub(crate) fn straighten(model: &Model, q: &mut [f64], strained: Option<usize>) {
+pub(crate) fn straighten(cable: &Cable, q: &mut [f64]) {
+    let (model, strained) = (&cable.model, first_self_stress(cable, q));
     for node in 0..model.nodes() {
         let elements = node.saturating_sub(1)..(node + 1).min(model.elements.len());
         let folded =
@@ -143,9 +152,11 @@ mod tests {
             buckled.snapshot.state.q[at] = x;
         }
         for (mut cable, element) in [(flipped, 2), (buckled, 1)] {
-            assert_eq!(first_fold(&cable.model, cable.positions()), Some(element));
-            straighten(&cable.model, &mut cable.snapshot.state.q, None);
-            assert_eq!(first_fold(&cable.model, cable.positions()), None);
+            assert_eq!(first_folded(&cable.model, cable.positions()), Some(element));
+            let mut q = cable.positions().to_vec();
+            straighten(&cable, &mut q);
+            cable.snapshot.state.q = q;
+            assert_eq!(first_folded(&cable.model, cable.positions()), None);
         }
     }
 
@@ -161,17 +172,17 @@ mod tests {
         for (i, [x, y, dx, dy]) in nodes.into_iter().enumerate() {
             hairpin.snapshot.state.q[6 * i..6 * i + 6].copy_from_slice(&[x, y, 0.0, dx, dy, 0.0]);
         }
-        assert_eq!(first_fold(&hairpin.model, hairpin.positions()), None);
+        assert_eq!(first_folded(&hairpin.model, hairpin.positions()), None);
         let mut corner = cable();
         let nodes = [[0.0, 0.0, 0.0, -1.0], [0.0, -1.0, 1.2, 0.0], [0.1, 0.0, 0.0, 1.0], [0.1, 1.0, 0.0, 1.0]];
         for (i, [x, y, dx, dy]) in nodes.into_iter().enumerate() {
             corner.snapshot.state.q[6 * i..6 * i + 6].copy_from_slice(&[x, y, 0.0, dx, dy, 0.0]);
         }
-        assert_eq!(first_fold(&corner.model, corner.positions()), None);
+        assert_eq!(first_folded(&corner.model, corner.positions()), None);
         let mut clamped = cable();
         let support = crate::Support { slope: SlopeSupport::Direction(-Vector3::x()), ..crate::Support::default() };
         clamped.set_support(At::Start, support).unwrap();
         clamped.snapshot.state.q[3] = -1.0;
-        assert_eq!(first_fold(&clamped.model, clamped.positions()), None);
+        assert_eq!(first_folded(&clamped.model, clamped.positions()), None);
     }
 }

@@ -51,5 +51,4 @@ pub(crate) use continuation::{Continued, find};
 pub(crate) use driven::in_shares;
 pub(crate) use folds::{first_fold, straighten};
 pub(crate) use potential::potential;
-pub(crate) use self_stress::first_self_stress;
 pub(crate) use start_shape::{lay_out, move_with_supports};

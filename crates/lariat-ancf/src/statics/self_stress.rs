@@ -31,7 +31,7 @@ use crate::model::LoadScale;
 use crate::scales::statics::{SELF_STRAIN, SELF_STRESS};
 
 /// Returns the first element whose tension at rest, at coordinates `q`, is far above what pulls.
-pub(crate) fn first_self_stress(cable: &Cable, q: &[f64]) -> Option<usize> {
+pub(super) fn first_self_stress(cable: &Cable, q: &[f64]) -> Option<usize> {
     if cable.has_reel() {
         return None;
     }

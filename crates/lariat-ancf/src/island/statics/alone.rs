@@ -11,8 +11,7 @@ use crate::model::Model;
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
-    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, first_self_stress, in_shares,
-    lay_out, straighten,
+    Budget, Continued, EquilibriumOptions, EquilibriumReport, Failure, find, first_fold, in_shares, lay_out, straighten,
 };
 use crate::support::SlopeSupport;
 use nalgebra::Vector3;
@@ -76,8 +75,7 @@ impl Cable {
                 Ok(EquilibriumReport { iterations, ..report })
             }
             Err(failure) => {
-                let fold = first_fold(&self.model, self.positions());
-                let fold = fold.or_else(|| first_self_stress(self, self.positions()));
+                let fold = first_fold(self, self.positions());
                 self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
@@ -227,14 +225,14 @@ impl Cable {
     /// Returns the report if no element is folded; else straightens the folds and minimises the
     /// energy again.
     fn without_folds(&mut self, report: EquilibriumReport, budget: &mut Budget) -> Result<EquilibriumReport, Failure> {
-        let strained = first_self_stress(self, self.positions());
-        if strained.is_none() && first_fold(&self.model, self.positions()).is_none() {
+        if first_fold(self, self.positions()).is_none() {
             return Ok(report);
         }
-        straighten(&self.model, &mut self.snapshot.state.q, strained);
+        let mut q = self.positions().to_vec();
+        straighten(self, &mut q);
+        self.snapshot.state.q = q;
         let report = self.minimise_energy(1.0, budget)?;
-        let fold = || first_fold(&self.model, self.positions());
-        match first_self_stress(self, self.positions()).or_else(fold) {
+        match first_fold(self, self.positions()) {
             None => Ok(report),
             Some(_) => Err(Failure { cause: None, residual: report.residual }),
         }

@@ -19,7 +19,7 @@ use crate::scales::statics::{
     MAX_SLOPE_CHANGE, MIN_C2, PRODUCT_DISPLACEMENT, REDUCTION, SHAKE, STABILITY_C2,
 };
 use crate::section::Element;
-use crate::statics::{first_fold, first_self_stress, move_with_supports, potential, straighten};
+use crate::statics::{first_fold, move_with_supports, potential, straighten};
 use crate::system::project_vector;
 use nalgebra::Vector3;
 
@@ -182,9 +182,7 @@ impl<'a> Search<'a> {
                 }
                 straightened = true;
                 for (cable, part) in cables.iter().zip(&self.layout.parts) {
-                    let q = &mut self.q[part.range()];
-                    let strained = first_self_stress(cable, q);
-                    straighten(&cable.model, q, strained);
+                    straighten(cable, &mut self.q[part.range()]);
                 }
             } else if self.driven {
                 // the tangent of a flow is not symmetric: its symmetric part is judged, and nothing
@@ -365,8 +363,7 @@ impl<'a> Search<'a> {
 
     /// Returns the first folded element of a cable.
     fn fold(&self, cables: &[&mut Cable]) -> Option<usize> {
-        let of = |cable: &Cable, q: &[f64]| first_fold(&cable.model, q).or_else(|| first_self_stress(cable, q));
-        cables.iter().zip(&self.layout.parts).find_map(|(cable, part)| of(cable, &self.q[part.range()]))
+        cables.iter().zip(&self.layout.parts).find_map(|(cable, part)| first_fold(cable, &self.q[part.range()]))
     }
 
     /// Returns whether the stiffness is positive definite, but for modes softer than any that
