@@ -48,3 +48,7 @@ pub(crate) const TINY: f64 = 1e-140;
 /// z below which atan(z)/z is its series to the fourth power. Derived: the next term, z^6/7, is
 /// then below the rounding of `f64`.
 pub(crate) const SMALL_TURN: f64 = 2e-3;
+
+/// Least number of points of an axial rule beside which a law of one's own acts. Derived: the
+/// energy of Green's strain is of degree 8 inside an element, which as many integrate exactly.
+pub(crate) const LEAST_POINTS: u8 = 5;

@@ -10,6 +10,9 @@ impl Warning {
             Warning::UntouchedObstacles { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
+            | Warning::MuchSlack { .. }
+            | Warning::SlowStretch { .. }
+            | Warning::ThickElements { .. }
             | Warning::Stubby { .. }
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
@@ -25,6 +28,7 @@ impl Warning {
             | Warning::CutShort { .. }
             | Warning::TwistSlips { .. } => Level::Wrong,
             Warning::CoarseMesh { .. }
+            | Warning::GreenStrain { .. }
             | Warning::CoarseMotion { .. }
             | Warning::CoarseElement { .. }
             | Warning::CoarseMoment { .. }
@@ -49,6 +53,10 @@ impl Warning {
             | Warning::CoarseKink { cable, .. }
             | Warning::LongSteps { cable, .. }
             | Warning::LargeStrain { cable, .. }
+            | Warning::GreenStrain { cable, .. }
+            | Warning::MuchSlack { cable, .. }
+            | Warning::SlowStretch { cable, .. }
+            | Warning::ThickElements { cable, .. }
             | Warning::EnergyMade { cable, .. }
             | Warning::EnergyLost { cable, .. }
             | Warning::FastReel { cable, .. }
@@ -81,11 +89,12 @@ impl Judged for Warning {
     fn sign(&self) -> Option<Sign> {
         Some(match self {
             Warning::Stubby { .. }
+            | Warning::ThickElements { .. }
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
             | Warning::FastWaves { .. }
             | Warning::SoftMaterial { .. } => Sign::Sizes,
-            Warning::LargeStrain { .. } => Sign::Strain,
+            Warning::LargeStrain { .. } | Warning::GreenStrain { .. } => Sign::Strain,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::PassedThrough { .. } => Sign::Crossing,
@@ -98,6 +107,8 @@ impl Judged for Warning {
             Warning::Sinks { .. } => Sign::Depth,
             Warning::TwistSlips { .. } => Sign::Twist,
             Warning::UntouchedObstacles { .. }
+            | Warning::MuchSlack { .. }
+            | Warning::SlowStretch { .. }
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
@@ -117,6 +128,7 @@ impl Judged for Warning {
         match self {
             Warning::LongSteps { time_s, .. }
             | Warning::LargeStrain { time_s, .. }
+            | Warning::GreenStrain { time_s, .. }
             | Warning::EnergyLost { time_s, .. }
             | Warning::FastReel { time_s, .. }
             | Warning::UnseenLoad { time_s, .. }
@@ -134,7 +146,8 @@ impl Judged for Warning {
             Warning::CoarseMoment { moment_nm, elastica_nm, .. } => moment_nm / elastica_nm,
             Warning::CoarseMotion { error_m, displacement_m, .. } => error_m / displacement_m,
             Warning::CoarseElement { turn_rad, .. } | Warning::CoarseContact { turn_rad, .. } => *turn_rad,
-            Warning::LargeStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
+            Warning::LargeStrain { tension_n, axial_stiffness_n, .. }
+            | Warning::GreenStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
             Warning::FastReel { ratio, .. } | Warning::CoarseTwist { ratio, .. } => *ratio,
@@ -146,6 +159,9 @@ impl Judged for Warning {
             | Warning::CutShort { steps, .. }
             | Warning::FrictionLags { steps, .. } => *steps as f64,
             Warning::TwistSlips { slips, .. } => *slips as f64,
+            Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,
+            Warning::SlowStretch { axial_s, .. } => *axial_s,
+            Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
             // the more beyond the sizes of cables the smaller the number, or there is none
             Warning::Stubby { ratio, .. } => -ratio,
             Warning::LightMaterial { wave_speed_m_s, .. } | Warning::FastWaves { wave_speed_m_s, .. } => {

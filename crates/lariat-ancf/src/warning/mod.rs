@@ -39,6 +39,7 @@ pub use level::Level;
 pub use shock::Shock;
 pub use words::Interface;
 
+use crate::scales::watch::STRAIN_ROUNDS;
 use serde::{Deserialize, Serialize};
 
 /// A warning about a cable; its text says what to do. It serialises as its fields with `kind`.
@@ -165,6 +166,22 @@ pub enum Warning {
         percent = 100.0 * .tension_n / .axial_stiffness_n
     )]
     LargeStrain {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest tension in s.
+        time_s: f64,
+        /// Largest tension in N.
+        tension_n: f64,
+        /// Axial stiffness EA in N.
+        axial_stiffness_n: f64,
+    },
+    /// The tension is where Green's law, which the cable has by default, is off Hooke's.
+    #[error(
+        "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {percent:.1} % of EA = {axial_stiffness_n:.3e} N: its law (Green's strain) elongates it by {less_percent:.1} % \
+         less than Hooke's: where EA is force over elongation, set `AxialLaw::Hooke`; where Green's law is meant, `AxialLaw::Green`",
+        percent = 100.0 * .tension_n / .axial_stiffness_n, less_percent = 100.0 * less_elongation(.tension_n / .axial_stiffness_n)
+    )]
+    GreenStrain {
         /// Name of the cable.
         cable: String,
         /// Time of the largest tension in s.
@@ -370,6 +387,42 @@ pub enum Warning {
         /// Number of such turns.
         slips: u64,
     },
+    /// It is several times as long as drawn.
+    #[error(
+        "cable {cable:?}: it is {length_m:.4} m long and drawn over {drawn_m:.4} m, {percent:.0} % of slack: its length is in m; was a share meant?",
+        percent = 100.0 * (.length_m / .drawn_m - 1.0)
+    )]
+    MuchSlack {
+        /// Name of the cable.
+        cable: String,
+        /// Unstretched length in m.
+        length_m: f64,
+        /// Length of its points in m.
+        drawn_m: f64,
+    },
+    /// A damping time that no rope has.
+    #[error(
+        "cable {cable:?}: its axial damping is {axial_s} s: it stretches under a load only within such a time, and is stiff until then; it is the time of Kelvin \
+         and Voigt, not a share of the critical damping; for that of a rope set `CableBuilder::damped_as`"
+    )]
+    SlowStretch {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the axial strain in s.
+        axial_s: f64,
+    },
+    /// Elements that are thicker than long.
+    #[error(
+        "cable {cable:?}: its elements are {element_m:.2e} m long and {diameter_m:.2e} m thick: what bends within the thickness shears, and a cable has no shear; take fewer elements"
+    )]
+    ThickElements {
+        /// Name of the cable.
+        cable: String,
+        /// Length of the shortest elements in m.
+        element_m: f64,
+        /// Outer diameter or side in m.
+        diameter_m: f64,
+    },
     /// Too short for its thickness.
     #[error(
         "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \
@@ -433,6 +486,14 @@ pub enum Warning {
         /// Young's modulus in Pa.
         youngs_modulus_pa: f64,
     },
+}
+
+/// Returns the share by which the elongation at a tension over EA is less by Green's law, `(e +
+/// e^2/2)(1 + e)`, than by Hooke's, e.
+pub(crate) fn less_elongation(share: f64) -> f64 {
+    // from above, where the law is convex
+    let newton = |e: f64, _| e - ((e + 0.5 * e * e) * (1.0 + e) - share) / (1.0 + 3.0 * e + 1.5 * e * e);
+    1.0 - (0..STRAIN_ROUNDS).fold(share, newton) / share
 }
 
 /// Returns what to do about energy that integration makes, with the discrete gradient or without.

@@ -181,7 +181,7 @@ class AxialLaw:
     """Axial force against engineering strain, instead of the Green law."""
 
     law: str | Sequence[Sequence[float]]
-    """"hooke": EA times the strain; "rope": the same, without force in compression; or a measured curve, rows of strain and force in N, both
+    """"green": EA times the Green strain, as without a law, where that is meant; "hooke": EA times the strain; "rope": the same, without force in compression; or a measured curve, rows of strain and force in N, both
     ascending from a force of 0, which cannot push."""
     key: ClassVar[str] = "axial_law"
 

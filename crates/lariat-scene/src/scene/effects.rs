@@ -452,6 +452,8 @@ impl SceneEffect for Contact {
 choice! {
     /// Axial laws by name.
     enum LawName {
+        /// EA times the Green strain, as without a law: where that is meant.
+        Green = "green",
         /// EA times the engineering strain.
         Hooke = "hooke",
         /// The same, without force in compression.
@@ -470,7 +472,7 @@ table! {
 
 impl SceneEffect for AxialLaw {
     const KIND: Kind = Kind::Either(&[Kind::Choice(LawName::names), Kind::Table(&CURVE)]);
-    const WITHOUT: &'static str = "the Green law of the paper";
+    const WITHOUT: &'static str = "the Green law of the paper; Hooke's of a rope or chain by name";
 
     fn check(&self, _: &Document<'_>, _: &KeyPath, _: &Context<'_>) -> Result<(), Error> {
         Ok(())

@@ -19,9 +19,6 @@ impl Warning {
             | Warning::VelocityJump { .. }
             | Warning::DrawnCorner { .. }
             | Warning::ThickContact { .. }
-            | Warning::SlowStretch { .. }
-            | Warning::MuchSlack { .. }
-            | Warning::ThickElements { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
@@ -57,9 +54,6 @@ impl Warning {
             | Warning::VelocityJump { cable, .. }
             | Warning::DrawnCorner { cable, .. }
             | Warning::ThickContact { cable, .. }
-            | Warning::SlowStretch { cable, .. }
-            | Warning::MuchSlack { cable, .. }
-            | Warning::ThickElements { cable, .. }
             | Warning::AddedMassInAir { cable, .. }
             | Warning::LargeLoad { cable, .. } => Some(cable),
             Warning::FallsFreely { .. }
@@ -93,7 +87,7 @@ impl Judged for Warning {
             Warning::OpenGap { .. } => Sign::Gap,
             Warning::VelocityJump { .. } => Sign::Shock,
             Warning::DrawnCorner { .. } => Sign::Corner,
-            Warning::ThickContact { .. } | Warning::ThickElements { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
+            Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::FallsFreely { .. }
@@ -110,8 +104,6 @@ impl Judged for Warning {
             | Warning::RankDeficient { .. }
             | Warning::UnstableEquilibrium { .. }
             | Warning::LeftAsDrawn { .. }
-            | Warning::SlowStretch { .. }
-            | Warning::MuchSlack { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
             | Warning::AddedMassInAir { .. }
@@ -154,9 +146,6 @@ impl Judged for Warning {
             Warning::VelocityJump { force_n, .. } => *force_n,
             Warning::DrawnCorner { speed_m_s, .. } => *speed_m_s,
             Warning::ThickContact { radius_m, .. } => *radius_m,
-            Warning::SlowStretch { axial_s, .. } => *axial_s,
-            Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,
-            Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
             Warning::FarAnchor { distance_m, radius_m, .. } => distance_m / radius_m,
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,

@@ -348,42 +348,6 @@ pub enum Warning {
         /// Outer diameter or side of the section in m, if it has one.
         diameter_m: Option<f64>,
     },
-    /// A damping time that no rope has.
-    #[error(
-        "cable {cable:?}: its axial damping is {axial_s} s: it stretches under a load only within such a time, and is stiff until then; it is the time of Kelvin \
-         and Voigt, not a share of the critical damping; for that of a rope set damping = {{ rope = \"wire-rope\" }}"
-    )]
-    SlowStretch {
-        /// Name of the cable.
-        cable: String,
-        /// Time of the axial strain in s.
-        axial_s: f64,
-    },
-    /// A cable that is several times as long as drawn.
-    #[error(
-        "cable {cable:?}: it is {length_m:.4} m long and drawn over {drawn_m:.4} m, {percent:.0} % of slack: its length is in m; was a share meant?",
-        percent = 100.0 * (.length_m / .drawn_m - 1.0)
-    )]
-    MuchSlack {
-        /// Name of the cable.
-        cable: String,
-        /// Unstretched length in m.
-        length_m: f64,
-        /// Length of its points in m.
-        drawn_m: f64,
-    },
-    /// Elements that are thicker than long.
-    #[error(
-        "cable {cable:?}: its elements are {element_m:.2e} m long and {diameter_m:.2e} m thick: what bends within the thickness shears, and a cable has no shear; take fewer elements"
-    )]
-    ThickElements {
-        /// Name of the cable.
-        cable: String,
-        /// Length of the shortest elements in m.
-        element_m: f64,
-        /// Outer diameter or side in m.
-        diameter_m: f64,
-    },
     /// An anchor far from all of the shape of its body.
     #[error(
         "attachment {attachment:?}: its anchor is {distance_m:.3e} m from the origin of body {body:?}, whose shape reaches {radius_m:.3e} m: the anchor is in the axes of the body; was a point of the \
