@@ -299,6 +299,10 @@ pub(crate) mod read {
     /// Unknown: scenes have the same.
     pub(crate) const JOLT: f64 = 1e-5;
 
+    /// Largest distance of an anchor from the origin of a dynamic body over the radius of its
+    /// colliders. Derived: no hook is further from its body; scenes have the same.
+    pub(crate) const FAR_ANCHOR: f64 = 3.0;
+
     /// Depth in m, besides half the thickness of the cable, that is not taken for touching.
     /// Unknown: a millimetre.
     pub(crate) const TOUCHING: f64 = 1e-3;

@@ -17,7 +17,7 @@ use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
-use crate::scales::read::JOLT;
+use crate::scales::read::{FAR_ANCHOR, JOLT};
 use lariat_ancf::Level;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
@@ -106,6 +106,29 @@ pub enum Warning {
         /// Force in N of the wave that it makes in the cable.
         force: f64,
     },
+    /// An anchor far from all colliders of its body.
+    #[error(
+        "cable {name:?}: the anchor of an attachment is {distance:.3e} m from the origin of its body, whose colliders reach {radius:.3e} m: the anchor is in the axes of the body; \
+         was a point of the world meant?"
+    )]
+    FarAnchor {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// Distance of the anchor from the origin of the body in m.
+        distance: f64,
+        /// Radius of a sphere about the origin that holds the colliders in m.
+        radius: f64,
+    },
+    /// The world is in another unit than m.
+    #[error(
+        "Rapier's `length_unit` is {unit}: cables are in m, kg and s, and so are the limits by which their contacts, steps and warnings are judged; scale the world to m"
+    )]
+    LengthUnit {
+        /// `IntegrationParameters::length_unit`.
+        unit: f64,
+    },
     /// A cable that touches bodies would bounce off a collider with more of its velocity than it
     /// can.
     #[error(
@@ -129,7 +152,11 @@ impl Warning {
     pub fn level(&self) -> Level {
         match self {
             Warning::Cable { warning, .. } => warning.level(),
-            Warning::InCollider { .. } | Warning::VelocityJump { .. } | Warning::HighRestitution { .. } => Level::Setup,
+            Warning::InCollider { .. }
+            | Warning::VelocityJump { .. }
+            | Warning::FarAnchor { .. }
+            | Warning::LengthUnit { .. }
+            | Warning::HighRestitution { .. } => Level::Setup,
             Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
         }
     }
@@ -142,7 +169,9 @@ impl Warning {
             | Warning::HighRestitution { cable, .. } => Some(*cable),
             Warning::OpenGap { attachment, .. }
             | Warning::Unsettled { attachment, .. }
+            | Warning::FarAnchor { attachment, .. }
             | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
+            Warning::LengthUnit { .. } => None,
         }
     }
 }
@@ -158,7 +187,10 @@ impl Judged for Warning {
             Warning::InCollider { .. } => Some(Sign::Inside),
             Warning::OpenGap { .. } => Some(Sign::Gap),
             Warning::VelocityJump { .. } => Some(Sign::Shock),
-            Warning::Unsettled { .. } | Warning::HighRestitution { .. } => None,
+            Warning::Unsettled { .. }
+            | Warning::FarAnchor { .. }
+            | Warning::LengthUnit { .. }
+            | Warning::HighRestitution { .. } => None,
         }
     }
 
@@ -185,6 +217,8 @@ impl Judged for Warning {
             Warning::Unsettled { how, .. } => how.force,
             Warning::VelocityJump { force, .. } => *force,
             Warning::HighRestitution { restitution, .. } => *restitution,
+            Warning::FarAnchor { distance, radius, .. } => distance / radius,
+            Warning::LengthUnit { unit } => *unit,
         }
     }
 }
@@ -204,6 +238,10 @@ pub(crate) fn told(contents: &Contents, world: &PhysicsWorld, asked: Option<Leve
 /// Returns all warnings about the cables of a set.
 fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    let unit = f64::from(world.integration_parameters.length_unit);
+    if unit != 1.0 {
+        warnings.push(Warning::LengthUnit { unit });
+    }
     for (cable, slot) in contents.cables.iter() {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
@@ -233,6 +271,7 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     for (i, a) in attachments {
         let attachment = AttachmentHandle(i as u32);
         warnings.extend(of_attachment(contents, attachment, a, world));
+        warnings.extend(far_anchor(contents, attachment, a, world));
         if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
             warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
         }
@@ -277,6 +316,28 @@ fn of_attachment(
     let (difference, force) = (difference.norm(), shock.force);
     let due = difference > JOLT + rounding && shock.is_large();
     due.then_some(Warning::VelocityJump { attachment, name, difference, force })
+}
+
+/// Returns whether an anchor is far outside of the colliders of its dynamic body.
+fn far_anchor(
+    contents: &Contents,
+    attachment: AttachmentHandle,
+    own: &Attachment,
+    world: &PhysicsWorld,
+) -> Option<Warning> {
+    let body = world.bodies.get(own.body).filter(|body| body.is_dynamic())?;
+    let reach = |handle: &ColliderHandle| {
+        let collider = world.colliders.get(*handle)?;
+        let sphere = collider.shape().compute_local_bounding_sphere();
+        let place = collider.position_wrt_parent().copied().unwrap_or_default();
+        let centre = vector(place.translation) + rotation(place.rotation) * vector(sphere.center);
+        Some(centre.norm() + f64::from(sphere.radius))
+    };
+    let radius = body.colliders().iter().filter_map(reach).fold(0.0, f64::max);
+    let distance = own.anchor.norm();
+    let name = contents.cable(own.cable).ok()?.name().to_string();
+    let far = radius > 0.0 && distance > FAR_ANCHOR * radius;
+    far.then_some(Warning::FarAnchor { attachment, name, distance, radius })
 }
 
 /// Reads the cables at the end of a host step, and tells them first whether nothing else acts on

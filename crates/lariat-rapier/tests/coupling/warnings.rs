@@ -263,3 +263,28 @@ fn a_body_that_is_put_elsewhere_is_told_as_a_gap() {
         assert!(matches!(told[..], [Warning::OpenGap { .. }]), "{told:?}");
     }
 }
+
+/// An anchor in the axes of the world, and a world in another unit, are told; and neither where they are as they should be.
+#[test]
+fn far_anchors_and_other_units_are_told() {
+    let kinds = |anchor: f64, unit: Real| {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.length_unit = unit;
+        let mut set = CableSet::new();
+        let rope = set.insert(cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).build().unwrap());
+        let cube = add_cube(&mut world, 10.0, 0.1, [0.0, -2.0 - anchor as Real, 0.0]);
+        set.attach(&world, rope, At::End, cube, Vector::new(0.0, anchor as Real, 0.0), AttachmentKind::Ball).unwrap();
+        let kind = |warning: &Warning| match warning {
+            Warning::FarAnchor { distance, .. } => {
+                assert!((distance / anchor - 1.0).abs() < 1e-6, "{warning}");
+                Some("anchor")
+            }
+            Warning::LengthUnit { .. } => Some("unit"),
+            _ => None,
+        };
+        set.warnings(&world).iter().filter_map(kind).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(0.1, 1.0), Vec::<&str>::new());
+    assert_eq!(kinds(0.1, 100.0), ["unit"]);
+    assert_eq!(kinds(2.0, 1.0), ["anchor"]);
+}
