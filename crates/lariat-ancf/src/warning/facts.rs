@@ -10,6 +10,8 @@ impl Warning {
             Warning::UntouchedObstacles { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::StiffTorsion { .. }
             | Warning::Stubby { .. }
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
@@ -23,7 +25,8 @@ impl Warning {
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
             | Warning::CutShort { .. }
-            | Warning::TwistSlips { .. } => Level::Wrong,
+            | Warning::TwistSlips { .. }
+            | Warning::KinksThroughItself { .. } => Level::Wrong,
             Warning::CoarseMesh { .. }
             | Warning::CoarseMotion { .. }
             | Warning::CoarseElement { .. }
@@ -64,6 +67,9 @@ impl Warning {
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
             | Warning::TwistSlips { cable, .. }
+            | Warning::KinksThroughItself { cable, .. }
+            | Warning::MomentAlong { cable, .. }
+            | Warning::StiffTorsion { cable, .. }
             | Warning::Stubby { cable, .. }
             | Warning::Thick { cable, .. }
             | Warning::LightMaterial { cable, .. }
@@ -102,6 +108,9 @@ impl Judged for Warning {
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
+            | Warning::KinksThroughItself { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::StiffTorsion { .. }
             | Warning::FastReel { .. }
             | Warning::UnseenLoad { .. }
             | Warning::FrictionLags { .. }
@@ -120,6 +129,7 @@ impl Judged for Warning {
             | Warning::EnergyLost { time_s, .. }
             | Warning::FastReel { time_s, .. }
             | Warning::UnseenLoad { time_s, .. }
+            | Warning::MomentAlong { time_s, .. }
             | Warning::RoundedEnds { time_s, .. } => Some(*time_s),
             // energy is made until its time, not from then on
             _ => None,
@@ -137,7 +147,11 @@ impl Judged for Warning {
             Warning::LargeStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
-            Warning::FastReel { ratio, .. } | Warning::CoarseTwist { ratio, .. } => *ratio,
+            Warning::FastReel { ratio, .. }
+            | Warning::CoarseTwist { ratio, .. }
+            | Warning::StiffTorsion { ratio, .. }
+            | Warning::KinksThroughItself { share: ratio, .. } => *ratio,
+            Warning::MomentAlong { part_nm, .. } => *part_nm,
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Sinks { share, .. } => *share,

@@ -13,7 +13,6 @@ impl Warning {
             | Warning::StartsInside { .. }
             | Warning::PassesThrough { .. }
             | Warning::UnfinishedRamp { .. }
-            | Warning::MomentAlong { .. }
             | Warning::RankDeficient { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::VelocityJump { .. }
@@ -50,7 +49,6 @@ impl Warning {
             | Warning::PassesThrough { cable, .. }
             | Warning::OpenGap { cable, .. }
             | Warning::Unsettled { cable, .. }
-            | Warning::MomentAlong { cable, .. }
             | Warning::StiffKink { cable, .. }
             | Warning::RankDeficient { cable, .. }
             | Warning::UnstableEquilibrium { cable, .. }
@@ -102,7 +100,6 @@ impl Judged for Warning {
             | Warning::SheaveStopped { .. }
             | Warning::WheelTurned { .. }
             | Warning::UnfinishedRamp { .. }
-            | Warning::MomentAlong { .. }
             | Warning::StiffKink { .. }
             | Warning::NoConvergence { .. }
             | Warning::ForcesNotProven { .. }
@@ -147,7 +144,6 @@ impl Judged for Warning {
             Warning::Unsettled { force, .. } => *force,
             Warning::WheelTurned { error_m, part_m, .. } => error_m / part_m,
             Warning::UnfinishedRamp { ramp_s, .. } => *ramp_s,
-            Warning::MomentAlong { part_nm, .. } => part_nm.abs(),
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
             Warning::UnstableEquilibrium { compression, .. } => compression.unwrap_or(0.0),
