@@ -193,6 +193,12 @@ pub(crate) mod step {
     /// Unknown: loads fall asleep and slow ones do not (tests, sleep.rs).
     pub(crate) const STEADY_FORCE_CHANGE: f64 = 2e-3;
 
+    /// Rate in rad/s of the twist of a cable below which it may sleep: Rapier's own limit, half a
+    /// radian per second, is far from the rest of a load that turns on its rope. Derived:
+    /// [`STEADY_FORCE_CHANGE`] of the torque of a radian in the half second in which a body falls
+    /// asleep.
+    pub(crate) const SLEEP_SPIN: f64 = 4e-3;
+
     /// Share of a Rapier step that is left at least where it is divided at a break. Derived: the
     /// shortest step of error control, of which there are 64 in a host step; what a cable passes on
     /// meanwhile is that of one such step.

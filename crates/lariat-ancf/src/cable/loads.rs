@@ -1,6 +1,7 @@
 //! Gravity and point loads of a cable, changed between steps.
 
 use super::Cable;
+use crate::element::shape::{self, combine};
 use crate::error::{Error, require_finite};
 use crate::load::PointLoad;
 use nalgebra::Vector3;
@@ -77,6 +78,20 @@ impl Cable {
     pub fn clear_loads(&mut self) {
         self.model.loads.clear();
         self.take_loads();
+    }
+
+    /// Returns of the moment with the largest part about the tangent, which does nothing, the arc
+    /// length in m, that part and the moment in N m; those with less than `share` of themselves
+    /// about it, and those that a clamp takes, do not count.
+    pub(crate) fn moment_along(&self, share: f64) -> Option<[f64; 3]> {
+        let loads = self.model.loads.iter().filter(|load| load.moment != Vector3::zeros());
+        let of = |load: &PointLoad| {
+            let (e, xi) = self.model.locate(load.arc_length);
+            let slope = combine(self.positions(), e, &shape::slope(xi, self.model.elements[e].length));
+            let (part, moment) = (load.moment.dot(&slope.try_normalize(0.0)?).abs(), load.moment.norm());
+            (part > share * moment && !self.holds_moment(load.arc_length)).then_some([load.arc_length, part, moment])
+        };
+        loads.filter_map(of).max_by(|a, b| a[1].total_cmp(&b[1]))
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

@@ -235,11 +235,7 @@ impl Model {
             return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::RestStretch });
         }
         if self.effects.torsion.as_ref().and_then(Strands::of).is_some() {
-            let problems = [
-                (has_law, "an axial law"),
-                (self.effects.rest_shape.as_ref().is_some_and(stretched), "a rest stretch"),
-                (!self.reels.is_empty(), "a reel"),
-            ];
+            let problems = [(has_law, "an axial law"), (!self.reels.is_empty(), "a reel")];
             if let Some((_, what)) = problems.into_iter().find(|(is, _)| *is) {
                 let by = format!("with {what} where tension makes torque: leave out torque_per_tension");
                 return Err(Error::TorsionPlace { cable: self.name.clone(), by });

@@ -21,7 +21,7 @@ impl Model {
             let holds = self.supports.iter().filter(move |(node, support)| self.holds_spin(torsion, *node, support));
             holds.filter_map(move |(node, _)| {
                 let first = before.replace(*node)?;
-                Some(Segment::between(torsion, &self.elements, [first, *node]))
+                Some(Segment::between(torsion, self.effects.rest_shape.as_ref(), &self.elements, [first, *node]))
             })
         })
     }
@@ -67,7 +67,7 @@ impl Model {
         } else if node == self.elements.len() {
             torsion.end
         } else {
-            EndSpin::Held
+            torsion.inner
         }
     }
 }

@@ -132,3 +132,7 @@ pub(crate) const FINEST: f64 = 2.0;
 /// Ratio of the lengths of neighbours in a mesh that is advised. Unknown: between 1 and
 /// [`MOST_GROWTH`](super::cable::MOST_GROWTH).
 pub(crate) const GROWTH: f64 = 1.5;
+
+/// Share of a moment about the tangent above which it is told that this does nothing. Unknown: a
+/// tenth of what is asked for.
+pub(crate) const ALONG: f64 = 0.1;

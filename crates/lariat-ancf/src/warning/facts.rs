@@ -13,6 +13,8 @@ impl Warning {
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
             | Warning::ThickElements { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::StiffTorsion { .. }
             | Warning::Stubby { .. }
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
@@ -26,7 +28,8 @@ impl Warning {
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
             | Warning::CutShort { .. }
-            | Warning::TwistSlips { .. } => Level::Wrong,
+            | Warning::TwistSlips { .. }
+            | Warning::KinksThroughItself { .. } => Level::Wrong,
             Warning::CoarseMesh { .. }
             | Warning::GreenStrain { .. }
             | Warning::CoarseMotion { .. }
@@ -72,6 +75,9 @@ impl Warning {
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
             | Warning::TwistSlips { cable, .. }
+            | Warning::KinksThroughItself { cable, .. }
+            | Warning::MomentAlong { cable, .. }
+            | Warning::StiffTorsion { cable, .. }
             | Warning::Stubby { cable, .. }
             | Warning::Thick { cable, .. }
             | Warning::LightMaterial { cable, .. }
@@ -113,6 +119,9 @@ impl Judged for Warning {
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
+            | Warning::KinksThroughItself { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::StiffTorsion { .. }
             | Warning::FastReel { .. }
             | Warning::UnseenLoad { .. }
             | Warning::FrictionLags { .. }
@@ -132,6 +141,7 @@ impl Judged for Warning {
             | Warning::EnergyLost { time_s, .. }
             | Warning::FastReel { time_s, .. }
             | Warning::UnseenLoad { time_s, .. }
+            | Warning::MomentAlong { time_s, .. }
             | Warning::RoundedEnds { time_s, .. } => Some(*time_s),
             // energy is made until its time, not from then on
             _ => None,
@@ -150,7 +160,11 @@ impl Judged for Warning {
             | Warning::GreenStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
-            Warning::FastReel { ratio, .. } | Warning::CoarseTwist { ratio, .. } => *ratio,
+            Warning::FastReel { ratio, .. }
+            | Warning::CoarseTwist { ratio, .. }
+            | Warning::StiffTorsion { ratio, .. }
+            | Warning::KinksThroughItself { share: ratio, .. } => *ratio,
+            Warning::MomentAlong { part_nm, .. } => *part_nm,
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Sinks { share, .. } => *share,

@@ -30,6 +30,7 @@ mod level;
 mod shock;
 pub mod sizes;
 mod steps;
+mod torsion;
 mod watch;
 mod words;
 
@@ -422,6 +423,45 @@ pub enum Warning {
         element_m: f64,
         /// Outer diameter or side in m.
         diameter_m: f64,
+    },
+    /// Its torque is one at which it goes into a loop, and it does not touch itself.
+    #[error(
+        "cable {cable:?}: its torque reached {torque_nm:.3e} N m, {share:.2} times that at which it goes into loops under its tension, and it does not touch itself: a loop is \
+         pulled through itself; try `Contact` with itself, more tension, or less twist"
+    )]
+    KinksThroughItself {
+        /// Name of the cable.
+        cable: String,
+        /// Torque in N m.
+        torque_nm: f64,
+        /// `int sqrt(M^2/(4 EI^2) - T/EI) ds/pi`.
+        share: f64,
+    },
+    /// A point moment has a part about the tangent, which does nothing.
+    #[error(
+        "cable {cable:?}: at {time_s:.3} s the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, and that part does nothing, for the spin of a section \
+         between clamps is none of the coordinates: twist an end by a motor of its torsion, or clamp the cable to a body and put the moment on that"
+    )]
+    MomentAlong {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m.
+        at_m: f64,
+        /// Part of the moment about the tangent in N m.
+        part_nm: f64,
+        /// Time in s.
+        time_s: f64,
+    },
+    /// Torsion is stiffer than bending.
+    #[error(
+        "cable {cable:?}: its GJ is {ratio:.3} EI, and of a round section of one material it is EI/(1 + nu), less than EI: check both; right for a section that is wound or \
+         braided against twist"
+    )]
+    StiffTorsion {
+        /// Name of the cable.
+        cable: String,
+        /// GJ/EI.
+        ratio: f64,
     },
     /// Too short for its thickness.
     #[error(

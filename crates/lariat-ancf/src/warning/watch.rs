@@ -9,12 +9,12 @@
 //! says; the strain by the law of the material, which elongates a cable by 2 % less than Hooke's at
 //! 1.4 % of EA, and by 7 % less at 5 %.
 
+use super::advised::more;
+use super::torsion::stiff_torsion;
 use super::{Level, Warning, fold, less_elongation, sizes};
 use crate::cable::Cable;
 use crate::integrate::{Fidelity, OneStep};
-use crate::scales::watch::{
-    DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN, TWIST,
-};
+use crate::scales::watch::{DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN};
 use crate::strength::Unseen;
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
@@ -23,7 +23,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 20] = [
+const LAWS: [(Law, bool); 23] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -40,6 +40,9 @@ const LAWS: [(Law, bool); 20] = [
     (|_, cable, _| unresolved(cable), true),
     (|_, cable, _| cut_short(cable), true),
     (Watch::twist, true),
+    (Watch::kinks, true),
+    (Watch::moment_along, true),
+    (|_, cable, _| stiff_torsion(cable), true),
     (|_, cable, _| untouched(cable), true),
     (|watch, cable, _| watch.layers.moment(cable), true),
     (|watch, cable, error| watch.layers.kink(cable).filter(|_| error.is_none()), true),
@@ -87,7 +90,7 @@ impl Watch {
         if share > self.tension[0] {
             self.tension = [share, tension, stiffness, cable.time()];
         }
-        self.twist = self.twist.max(cable.largest_twist());
+        self.note_torsion(cable);
         if cable.end_noise > self.noise.0 && cable.is_straight() {
             self.noise = (cable.end_noise, cable.time());
         }
@@ -202,21 +205,6 @@ impl Watch {
         let ((noise_n, time_s), tension_n) = (self.noise, self.tension[1]);
         let cable = || cable.name().to_string();
         (noise_n > NOISE * tension_n).then(|| Warning::RoundedEnds { cable: cable(), time_s, noise_n, tension_n })
-    }
-
-    fn twist(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
-        let (slips, elements, name) =
-            (cable.diagnostics().twist_slips, cable.elements().len(), || cable.name().to_string());
-        if cable.has_idle_torsion() {
-            return Some(Warning::IdleTorsion { cable: name() });
-        }
-        if slips > 0 {
-            return Some(Warning::TwistSlips { cable: name(), slips });
-        }
-        (self.twist > TWIST).then(|| {
-            let enough = more(elements, (self.twist / (0.5 * TWIST)).powi(4));
-            Warning::CoarseTwist { cable: name(), ratio: self.twist, elements, enough }
-        })
     }
 
     fn crossed(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
@@ -369,11 +357,4 @@ impl Cable {
             self.watch = Some(watch);
         }
     }
-}
-
-/// Returns a number of elements that makes an error `factor` times smaller, if it falls with the
-/// power 2.5 of the element length: smooth shapes that are resolved converge with 3 to 4, the
-/// falling pendulum from 2 to 8 elements with 2 to 3.
-fn more(elements: usize, factor: f64) -> usize {
-    (elements as f64 * factor.powf(0.4)).ceil().min(MOST) as usize
 }

@@ -80,7 +80,9 @@ class Torsion:
     """The same at the end."""
     torque_per_tension: float = 0.0
     """Torque per tension in m while twist is held: torque factor times diameter of a stranded rope, positive for a right-hand lay.
-    Not on reels, nor with an axial law or a rest stretch."""
+    Not on reels, nor with an axial law."""
+    inner: str | Motor = "held"
+    """The same as ``start`` and ``end`` of all clamps between; one that is not held lets the torque through."""
     key: ClassVar[str] = "torsion"
 
     @classmethod
@@ -210,7 +212,7 @@ def _plain(effect: Any) -> Any:
         return [_plain(piece) for piece in effect.pieces]
     values = {f.name: getattr(effect, f.name) for f in fields(effect)}
     if isinstance(effect, Torsion):
-        return {name: _spin(value) if name in ("start", "end") else value for name, value in values.items()}
+        return {name: _spin(value) if name in ("start", "end", "inner") else value for name, value in values.items()}
     if isinstance(effect, Drag):
         values["flow"] = {k: v for k, v in _plain(effect.flow).items() if k == "velocity" or (v is not None and len(v))}
     for ours, theirs in (("start", "from"), ("end", "to")):
@@ -263,7 +265,7 @@ def build(plain: Mapping[str, Any]) -> dict[str, Any]:
         elif key == "damping":
             made[key] = Damping(**value)
         elif key == "torsion":
-            made[key] = Torsion(**{k: _made_spin(v) if k in ("start", "end") else v for k, v in value.items()})
+            made[key] = Torsion(**{k: _made_spin(v) if k in ("start", "end", "inner") else v for k, v in value.items()})
         elif key == "contact":
             made[key] = Contact(**value)
         elif key == "buoyancy":

@@ -328,16 +328,18 @@ table! {
         start: Option<Value> = ("\"held\""), END_SPIN;
         /// The same of a clamp at the end.
         end: Option<Value> = ("\"held\""), END_SPIN;
+        /// The same of all clamps between; one that is not held lets the torque through.
+        inner: Option<Value> = ("\"held\""), END_SPIN;
     }
     choose Choose::AtLeastOne(&["stiffness", "poisson"]);
 }
 
-/// How an end holds its spin.
+/// How a clamp holds the spin.
 const END_SPIN: Kind = Kind::Either(&[Kind::Choice(|| vec!["held", "swivel"]), Kind::Table(&MotorTable::TABLE)]);
 
 table! {
-    /// A motor that turns the spin of a clamped end at a constant rate.
-    struct MotorTable("[cable.torsion.start] and [cable.torsion.end]") {
+    /// A motor that turns the spin at a clamp at a constant rate.
+    struct MotorTable("[cable.torsion.start], [cable.torsion.end] and [cable.torsion.inner]") {
         /// Turns per second, right-handed about the axis in the direction of arc length.
         rate: f64 = required, Kind::Number(ANY), "1/s";
         /// Time at which it starts.
@@ -363,7 +365,12 @@ impl SceneEffect for Torsion {
         };
         (torsion.initial_twist, torsion.damping) = (table.initial_twist, table.damping);
         torsion.torque_per_tension = table.torque_per_tension;
-        for (key, written, spin) in [("start", table.start, &mut torsion.start), ("end", table.end, &mut torsion.end)] {
+        let spins = [
+            ("start", table.start, &mut torsion.start),
+            ("end", table.end, &mut torsion.end),
+            ("inner", table.inner, &mut torsion.inner),
+        ];
+        for (key, written, spin) in spins {
             *spin = match written {
                 Some(Value::String(text)) if text == "swivel" => EndSpin::Swivel,
                 Some(motor @ Value::Table(_)) => {

@@ -44,7 +44,6 @@ impl Scene {
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
         warnings.extend(self.large_in_waves());
-        warnings.extend(self.moments_along());
         if purpose != Purpose::Static {
             warnings.extend(self.falling());
             warnings.extend(self.unfinished_ramps());
@@ -103,17 +102,6 @@ impl Scene {
             }
         }
         warnings
-    }
-
-    /// Returns a warning for each moment about the tangent of a cable that is drawn straight.
-    fn moments_along(&self) -> impl Iterator<Item = Warning> {
-        self.loads.iter().filter_map(|LoadScene { cable, load, .. }| {
-            let cable = &self.cables[*cable];
-            let [a, b] = cable.points[..] else { return None };
-            let part_nm = load.moment.dot(&(b - a).normalize()).abs();
-            let most = part_nm > 0.1 * load.moment.norm();
-            most.then(|| Warning::MomentAlong { cable: cable.name.clone(), at_m: load.arc_length, part_nm })
-        })
     }
 
     /// Returns a warning for each anchor far outside of the shape of a dynamic body.

@@ -13,7 +13,6 @@ impl Warning {
             | Warning::StartsInside { .. }
             | Warning::PassesThrough { .. }
             | Warning::UnfinishedRamp { .. }
-            | Warning::MomentAlong { .. }
             | Warning::RankDeficient { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::VelocityJump { .. }
@@ -47,7 +46,6 @@ impl Warning {
             | Warning::PassesThrough { cable, .. }
             | Warning::OpenGap { cable, .. }
             | Warning::Unsettled { cable, .. }
-            | Warning::MomentAlong { cable, .. }
             | Warning::StiffKink { cable, .. }
             | Warning::RankDeficient { cable, .. }
             | Warning::UnstableEquilibrium { cable, .. }
@@ -96,7 +94,6 @@ impl Judged for Warning {
             | Warning::SheaveStopped { .. }
             | Warning::WheelTurned { .. }
             | Warning::UnfinishedRamp { .. }
-            | Warning::MomentAlong { .. }
             | Warning::StiffKink { .. }
             | Warning::NoConvergence { .. }
             | Warning::ForcesNotProven { .. }
@@ -139,7 +136,6 @@ impl Judged for Warning {
             Warning::Unsettled { force, .. } => *force,
             Warning::WheelTurned { error_m, part_m, .. } => error_m / part_m,
             Warning::UnfinishedRamp { ramp_s, .. } => *ramp_s,
-            Warning::MomentAlong { part_nm, .. } => part_nm.abs(),
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
             Warning::UnstableEquilibrium { compression, .. } => compression.unwrap_or(0.0),

@@ -161,19 +161,6 @@ pub enum Warning {
         /// Duration of the run in s.
         duration_s: f64,
     },
-    /// A cable without torsion gets a moment about its own direction.
-    #[error(
-        "cable {cable:?}: the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, as drawn, and that part does \
-         nothing: twist an end by a motor of its torsion, or put the moment on a body"
-    )]
-    MomentAlong {
-        /// Name of the cable.
-        cable: String,
-        /// Arc length in m.
-        at_m: f64,
-        /// Part of the moment about the tangent in N m.
-        part_nm: f64,
-    },
     /// Integration makes energy.
     #[error(
         "the run makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of the largest energy or work ({scale_j:.3e} J): {}",

@@ -23,7 +23,9 @@
 //! | `direction` | directions of slopes, regularised |
 //! | `pair` | twist between two directions |
 //! | `element` | twist of an element: gradient, Hessian, exact change |
+//! | `path` | twist that a change adds which no step makes |
 //! | `lengths` | lengths of elements over a step |
+//! | `check` | whether a twist was followed in statics |
 //! | `curve` | what a change of the mesh does to the twist |
 //! | `stranded` | torque by tension of a stranded rope |
 //! | `segment` | segments of a cable, their torques, and what the state holds of them |
@@ -51,11 +53,13 @@
 //! per node: constraints, or a mass matrix that is not constant. Twist of the nodal tangents
 //! (discrete elastic rods): order 2.
 
+pub(crate) mod check;
 pub(crate) mod curve;
 mod direction;
 mod element;
 pub(crate) mod lengths;
 mod pair;
+mod path;
 pub(crate) mod rank;
 pub(crate) mod segment;
 pub(crate) mod spin;
@@ -69,8 +73,8 @@ use crate::error::{Error, Requirement, require};
 use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
-/// How a clamped end of a cable with [torsion](Torsion) holds its spin about the axis. At an end
-/// that is not clamped nothing holds it.
+/// How a clamp of a cable with [torsion](Torsion) holds its spin about the axis. At an end that is
+/// not clamped nothing holds it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum EndSpin {
@@ -140,7 +144,7 @@ pub struct Torsion {
     /// c and the diameter d, positive for a right-hand lay, which tension unlays; default 0, as a
     /// section that is isotropic has it. EA is then the axial stiffness while twist is held, and
     /// [`stiffness`](Self::stiffness) the torsional one while tension is: M = c d T + GJ times the
-    /// twist rate. Not on reels, nor with an axial law or a rest stretch.
+    /// twist rate. Not on reels, nor with an axial law.
     #[serde(default)]
     pub torque_per_tension: f64,
     /// Spin of the first node, if it is clamped.
@@ -149,13 +153,18 @@ pub struct Torsion {
     /// Spin of the last node, if it is clamped.
     #[serde(default)]
     pub end: EndSpin,
+    /// Spin of all nodes between that are clamped. A clamp that does not hold it lets the torque
+    /// through.
+    #[serde(default)]
+    pub inner: EndSpin,
 }
 
 impl Torsion {
     /// Torsion of stiffness GJ in N m^2: untwisted as built, clamps hold the spin.
     pub fn new(stiffness: f64) -> Self {
         let (initial_twist, damping, torque_per_tension) = (0.0, 0.0, 0.0);
-        Torsion { stiffness, initial_twist, damping, torque_per_tension, start: EndSpin::Held, end: EndSpin::Held }
+        let [start, end, inner] = [EndSpin::Held; 3];
+        Torsion { stiffness, initial_twist, damping, torque_per_tension, start, end, inner }
     }
 
     /// That of a stranded rope of stiffness GJ in N m^2 by its torque factor c and its diameter in
@@ -185,15 +194,19 @@ impl Torsion {
 }
 
 impl Torsion {
+    /// Returns all settings of the spin.
+    fn spins(&self) -> [EndSpin; 3] {
+        [self.start, self.end, self.inner]
+    }
+
     /// Returns whether no motor turns from a time in s on.
     pub(crate) fn is_still(&self, time: f64) -> bool {
-        self.start.is_still(time) && self.end.is_still(time)
+        self.spins().iter().all(|spin| spin.is_still(time))
     }
 
     /// Lets motors turn later by a time in s.
     pub(crate) fn delay(&mut self, by: f64) {
-        self.start.delay(by);
-        self.end.delay(by);
+        [&mut self.start, &mut self.end, &mut self.inner].into_iter().for_each(|spin| spin.delay(by));
     }
 }
 
@@ -208,8 +221,7 @@ impl Effect for Torsion {
         if cable.has_no_bending() {
             return Err(cable.missing("torsion", Requirement::BendingRule));
         }
-        self.start.check()?;
-        self.end.check()
+        self.spins().iter().try_for_each(EndSpin::check)
     }
 
     fn depends_on_velocity(&self) -> bool {
@@ -225,7 +237,7 @@ impl Effect for Torsion {
     }
 
     fn is_steady(&self, from: f64, to: f64) -> bool {
-        self.start.is_steady(from, to) && self.end.is_steady(from, to)
+        self.spins().iter().all(|spin| spin.is_steady(from, to))
     }
 
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {

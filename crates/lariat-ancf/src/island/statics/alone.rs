@@ -108,7 +108,7 @@ impl Cable {
         self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
         self.system.static_contact.end();
         if let Some(mut torsion) = self.system.static_torsion.take() {
-            torsion.end(&self.model, &mut self.snapshot.state);
+            self.diagnostics.twist_slips += torsion.end(&self.model, &mut self.snapshot.state);
         }
         contacts
     }
