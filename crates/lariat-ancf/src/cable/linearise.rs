@@ -1,7 +1,9 @@
 //! The cable's matrices at its present state: for eigenfrequencies, buckling loads and coupling.
 
 use super::Cable;
+use crate::coupling::TwistBorder;
 use crate::effect::acts::ForceInput;
+use crate::effect::torsion::segment::Segment;
 use crate::linalg::BlockTridiagonal;
 use crate::state::State;
 use crate::system::jacobian::Jacobians;
@@ -71,6 +73,19 @@ impl Cable {
     /// See [`Linearisation`](crate::coupling::Linearisation).
     pub(crate) fn apply_supports(&self, matrix: &mut BlockTridiagonal) {
         project_matrix(&self.model, matrix);
+    }
+
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn twist_borders(&self) -> Vec<TwistBorder> {
+        let damping = self.model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
+        let border = |(segment, _): (Segment, _)| {
+            let (mut own, mut gradient) = (Vec::new(), vec![0.0; self.positions().len()]);
+            segment.gradient(&self.model.elements, self.positions(), &mut own);
+            gradient[segment.range()].copy_from_slice(&own);
+            let stiffness = segment.stiffness;
+            TwistBorder { nodes: segment.nodes, stiffness, damping: stiffness * damping, gradient }
+        };
+        self.segments().into_iter().map(border).collect()
     }
 
     /// Returns the angular frequencies in rad/s of small motions about the present state, supports

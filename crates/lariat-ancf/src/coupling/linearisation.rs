@@ -8,6 +8,24 @@ use crate::linalg::BlockTridiagonal;
 use crate::system::jacobian::Jacobians;
 use fearless_simd::Level;
 
+/// What torsion adds to the matrices of a cable, between two neighbouring nodes that hold its spin:
+/// the stiffness K g g^T and the damping C g g^T, which couple all coordinates.
+///
+/// The twist is that of the curve, whose derivatives g are, less the angle by which what holds the
+/// first node spins about the slope there, and that of the last node more.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TwistBorder {
+    /// The two nodes, ascending.
+    pub nodes: [usize; 2],
+    /// K in N m.
+    pub stiffness: f64,
+    /// C in N m s.
+    pub damping: f64,
+    /// Derivatives g of the twist by all coordinates, in rad/m and rad.
+    pub gradient: Vec<f64>,
+}
+
 /// The matrices of a cable at its present state, bounds of its frequencies, and what is told of its
 /// mesh: for control, for integrators of your own, and for tests.
 pub trait Linearisation {
@@ -44,6 +62,11 @@ pub trait Linearisation {
     /// matrix takes, see [`damping`](crate::effect::damping), [`drag`](crate::effect::drag) and
     /// [`force_density`](crate::effect::force_density); all of it: [`jacobians`](Self::jacobians).
     fn stiffness_matrix(&mut self) -> BlockTridiagonal;
+
+    /// Returns what [torsion](crate::Torsion) adds to stiffness and damping beyond
+    /// [`stiffness_matrix`](Self::stiffness_matrix), which has the part M d2 Phi of its torque;
+    /// none without torsion, or where no two nodes hold the spin.
+    fn twist_borders(&self) -> Vec<TwistBorder>;
 
     /// Returns an upper bound of the cable's angular frequencies in rad/s; effects and forces of
     /// your own are not in it, but added mass and the rest stretch.
@@ -121,6 +144,10 @@ impl Linearisation for Cable {
 
     fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         Cable::stiffness_matrix(self)
+    }
+
+    fn twist_borders(&self) -> Vec<TwistBorder> {
+        Cable::twist_borders(self)
     }
 
     fn frequency_bound(&self) -> f64 {
