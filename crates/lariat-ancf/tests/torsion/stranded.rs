@@ -165,7 +165,11 @@ fn what_tension_that_makes_torque_does_not_go_with_is_refused() {
         assert!(error.to_string().contains("torque_per_tension"), "{error}");
     };
     let rest_shape = Some(RestShape::stretched(0.99));
-    told(rope(Effects { torsion: torsion(), axial_law: Some(AxialLaw::Rope), ..Effects::default() }).build().unwrap_err());
+    told(
+        rope(Effects { torsion: torsion(), axial_law: Some(AxialLaw::Rope), ..Effects::default() })
+            .build()
+            .unwrap_err(),
+    );
     told(rope(Effects { torsion: torsion(), rest_shape, ..Effects::default() }).build().unwrap_err());
     let curved = Some(RestShape::curved(0.5));
     rope(Effects { torsion: torsion(), rest_shape: curved, ..Effects::default() }).build().unwrap();
