@@ -203,21 +203,21 @@ fn a_stranded_rope_of_a_scene_turns_its_hook() {
 
 /// The load of assets/scenes/hook.toml turns about where no torque is left, and comes to rest there.
 ///
-/// *Source.* -k L (W + w L/2)/GJ; the overshoot of a damped step. Under a constant load the part of the
-/// twist that is strained is GJ/G of it, G = GJ + k^2 EA, so that G tau takes (GJ/G)^2 of what it takes
-/// at held length: the damping ratio is tau omega/2 GJ/G.
+/// *Source.* -k L (W + w L/2)/GJ; half of the period of a torsional pendulum, pi sqrt(L J/GJ), which damping shortens.
 #[test]
 fn the_load_of_the_hook_scene_rests_where_the_lay_has_no_torque() {
     let (_, [twist, _]) = run_asset("hook", ["twist", "energy"], &[]);
-    let exact = -1.08e-3 * 5.0 * (981.0 + 0.5 * 0.55 * 9.81 * 5.0) / 2.0;
+    let exact = -1.08e-3 * 5.0 * (981.0 + 0.5 * 0.55 * 9.81 * 5.0) / 8.0;
     let last = twist.last().unwrap();
     println!("{} of {exact} rad", last[2]);
     assert!((last[2] / exact - 1.0).abs() < 2e-3, "{last:?} {exact}");
-    let most = twist.iter().map(|row| row[2]).fold(0.0, f64::min);
-    // overshoot of a damped step, exp(-pi z/sqrt(1 - z^2))
-    let z = 0.5 * 3.0 * f64::sqrt(2.0 / (5.0 * 0.9)) * 2.0 / (2.0 + 1.08e-3 * 1.08e-3 * 4e6);
-    let over = (-PI * z / (1.0 - z * z).sqrt()).exp();
-    assert!((most / exact - 1.0 - over).abs() < 0.01, "{most} {over}");
+    let through: Vec<f64> = twist
+        .windows(2)
+        .filter(|pair| (pair[0][2] - exact) * (pair[1][2] - exact) < 0.0)
+        .map(|pair| pair[0][0])
+        .collect();
+    let half = PI * f64::sqrt(5.0 * 0.9 / 8.0);
+    assert!(((through[3] - through[0]) / (3.0 * half) - 1.0).abs() < 0.08, "{through:?} {half}");
 }
 
 /// The pipe of assets/scenes/drill_string.toml lags behind its motor by J a L/GJ while it gains speed, and by M L/GJ
@@ -239,24 +239,21 @@ fn the_drill_string_is_twisted_by_the_torque_of_its_bit() {
     assert!((drilling / exact[1] + 1.0).abs() < 3e-3, "{drilling} {exact:?}");
 }
 
-/// The hose of assets/scenes/hose.toml stays straight at 0.95 of Greenhill's torque, and is far out of line at
-/// 1.05 of it.
+/// The hose of assets/scenes/hose.toml stays straight at 0.97 of Greenhill's torque, and kinks at 1.03 of it.
 ///
-/// *Source.* Greenhill 1883: the smallest root of tan(x/2) = x/2 above 0, 8.9868, times EI/L between clamps.
+/// *Source.* Greenhill 1883: the least m = M L/EI at which a clamped rod under T L^2/EI = 10 is unstable, as the
+/// experiment `twist` of cosseratbench 0.3.0 computes it from B w'''' - i M w''' - T w'' = 0: 10.42886.
 #[test]
 fn the_hose_kinks_at_the_torque_of_greenhill() {
-    let critical = 8.9868 * 0.03 / 0.02 / (2.0 * PI);
+    let critical = 10.42886 * 0.03 / 0.02 / (2.0 * PI);
     let way = |share: f64| {
         let turns = format!("[6.5, {0}], [7.0, {0}]", share * critical);
-        let (_, [middle, twist]) = run_asset(
-            "hose",
-            ["middle", "twist"],
-            &[("[6.5, 2.4], [7.0, 2.4]", &turns), ("duration = 10.0", "duration = 20.0")],
-        );
+        let replaced = [("[6.5, 3.0], [7.0, 3.0]", turns.as_str()), ("duration = 12.0", "duration = 25.0")];
+        let (_, [middle, _]) = run_asset("hose", ["middle", "twist"], &replaced);
         let off = |row: &Vec<f64>| row[2].hypot(row[3]);
-        println!("{share}: {} m, {:?}", off(middle.last().unwrap()), twist.last());
         middle[middle.len() - 60..].iter().map(off).fold(0.0, f64::max)
     };
-    let [below, above] = [0.95, 1.05].map(way);
-    assert!(below < 0.005 && above > 0.02, "{below} {above}");
+    let [below, above] = [0.97, 1.03].map(way);
+    println!("{below} m, {above} m");
+    assert!(below < 2e-3 && above > 0.1, "{below} {above}");
 }
