@@ -2,9 +2,9 @@
 //!
 //! # Equation
 //!
-//! Between rows i and i + 1, at distance h in time, the cubic with the values and rates at both. The
-//! rate at a row is that of the parabola through it and its neighbours, in terms of the mean rates
-//! d of the intervals beside it:
+//! Between rows i and i + 1, at distance h in time, the cubic with the values and rates at both.
+//! The rate at a row is that of the parabola through it and its neighbours, in terms of the mean
+//! rates d of the intervals beside it:
 //!
 //! ```text
 //! inner row   r_i = (h_i d_{i-1} + h_{i-1} d_i)/(h_{i-1} + h_i)

@@ -1,7 +1,6 @@
 //! The cable's matrices at its present state: for eigenfrequencies, buckling loads and coupling.
 
 use super::Cable;
-use crate::coupling::TwistBorder;
 use crate::effect::acts::ForceInput;
 use crate::effect::torsion::segment::Segment;
 use crate::linalg::BlockTridiagonal;
@@ -9,6 +8,24 @@ use crate::state::State;
 use crate::system::jacobian::Jacobians;
 use crate::system::project_matrix;
 use nalgebra::DMatrix;
+
+/// What torsion adds to the matrices of a cable, between two neighbouring nodes that hold its spin:
+/// the stiffness K g g^T and the damping C g g^T, which couple all coordinates.
+///
+/// The twist is that of the curve, whose derivatives g are, less the angle by which what holds the
+/// first node spins about the slope there, and that of the last node more.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TwistBorder {
+    /// The two nodes, ascending.
+    pub nodes: [usize; 2],
+    /// K in N m.
+    pub stiffness: f64,
+    /// C in N m s.
+    pub damping: f64,
+    /// Derivatives g of the twist by all coordinates, in rad/m and rad.
+    pub gradient: Vec<f64>,
+}
 
 impl Cable {
     /// See [`Linearisation`](crate::coupling::Linearisation).

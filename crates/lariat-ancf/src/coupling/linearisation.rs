@@ -1,30 +1,13 @@
 //! The matrices of a cable, and what is told of its mesh.
 
 use crate::cable::Cable;
+pub use crate::cable::linearise::TwistBorder;
 use crate::cable::mesh::{MeshIndicator, MotionIndicator};
 use crate::effect::Damping;
 use crate::error::Error;
 use crate::linalg::BlockTridiagonal;
 use crate::system::jacobian::Jacobians;
 use fearless_simd::Level;
-
-/// What torsion adds to the matrices of a cable, between two neighbouring nodes that hold its spin:
-/// the stiffness K g g^T and the damping C g g^T, which couple all coordinates.
-///
-/// The twist is that of the curve, whose derivatives g are, less the angle by which what holds the
-/// first node spins about the slope there, and that of the last node more.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct TwistBorder {
-    /// The two nodes, ascending.
-    pub nodes: [usize; 2],
-    /// K in N m.
-    pub stiffness: f64,
-    /// C in N m s.
-    pub damping: f64,
-    /// Derivatives g of the twist by all coordinates, in rad/m and rad.
-    pub gradient: Vec<f64>,
-}
 
 /// The matrices of a cable at its present state, bounds of its frequencies, and what is told of its
 /// mesh: for control, for integrators of your own, and for tests.

@@ -91,9 +91,9 @@ pub enum EndSpin {
         until: f64,
     },
     /// A motor turns it, beside what it is clamped to, by a course: rows of time in s, ascending,
-    /// and turns, right-handed about the axis in the direction of arc length. Between them the turns
-    /// and their rate are [continuous](crate::smooth); before the first row and behind the last it
-    /// holds. What counts is by how much it turns from when the cable is built.
+    /// and turns, right-handed about the axis in the direction of arc length. Between them the
+    /// turns and their rate are [continuous](crate::smooth); before the first row and behind the
+    /// last it holds. What counts is by how much it turns from when the cable is built.
     Course(Vec<[f64; 2]>),
 }
 
