@@ -209,7 +209,7 @@ def _on_sliders(cables: list[lariat.Cable], scenario: Scenario, step: float) -> 
             mass = 1e-3 * rod.material.density * rod.area * rod.length
             builder = lariat.RigidBody.dynamic(translation=place, gravity_scale=0.0, can_sleep=False)
             body = world.add_body(builder, [lariat.Collider.ball(rod.radius, mass=mass, sensor=True)])
-            joint = lariat.PrismaticJoint.builder(motion.axis, local_anchor1=place, local_anchor2=[0.0, 0.0, 0.0])
+            joint = lariat.PrismaticJoint.builder(motion.axis.tolist(), local_anchor1=place, local_anchor2=[0.0, 0.0, 0.0])
             world.multibody_joints.insert(held, body, joint)
             cable.release(at)
             world.attach(cable, at, body, kind="clamp")
