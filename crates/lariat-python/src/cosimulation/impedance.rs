@@ -113,7 +113,7 @@ impl Link {
         supple.iter().enumerate().for_each(|(k, own)| compliance[(firm + k, firm + k)] += own);
         let p = DMatrix::from_fn(count, 6 * self.ends.len(), |r, c| {
             let own = maps[r].iter().filter(|(end, ..)| *end == c / 6);
-            own.map(|(_, linear, angular)| if c % 6 < 3 { linear[c % 6] } else { angular[c % 6 - 3] }).sum()
+            own.map(|(_, linear, angular)| if c % 6 < 3 { linear[c % 6] } else { angular[c % 6 - 3] }).sum::<f64>()
         });
         let z = p.transpose() * compliance.try_inverse().ok_or_else(none)? * p;
         if z.iter().all(|x| x.is_finite()) { Ok(z) } else { Err(none()) }
