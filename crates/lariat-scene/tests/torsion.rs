@@ -162,7 +162,7 @@ fn what_is_wrong_with_torsion_in_a_scene_is_told() {
         ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rate = 1.0, from = 2.0, until = 1.0 }", "stops before"),
         ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { from = 2.0 }", "rows"),
         ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rate = 1.0, rows = [[0.0, 0.0]] }", "rate"),
-        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rows = [[1.0, 0.0], [0.0, 1.0]] }", "ascending"),
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rows = [[1.0, 0.0], [0.0, 1.0]] }", "follows"),
         ("elements = 4\n", "elements = 4\nintegrator = { method = \"esdirk4\", tolerance = 1e-5 }\n", "torsion"),
         ("[cable.torsion]\nstiffness = 0.02\ninitial_twist = 0.25\n", "", "no torsion"),
     ];
