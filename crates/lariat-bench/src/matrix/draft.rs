@@ -102,8 +102,6 @@ pub struct Draft {
     pub sheave: bool,
     /// What winds cable at the start and at the end.
     pub wound: [Option<Wound>; 2],
-    /// Its bending stiffness in N m^2.
-    pub bending_stiffness: f64,
     /// Its effects.
     pub effects: Effects,
     /// Whether a force per length of a program acts.
@@ -140,7 +138,6 @@ impl Draft {
             clamps: false,
             sheave: false,
             wound: [None, None],
-            bending_stiffness: 1e-3,
             effects: Effects::default(),
             force_density: false,
             loads: Vec::new(),
@@ -154,10 +151,6 @@ impl Draft {
         features.iter().for_each(|feature| draft.add(*feature));
         if draft.start == Hold::Free && !floats {
             draft.start = Hold::World;
-        }
-        // no torque without two holds
-        if features.contains(&Feature::Torsion) && draft.end == Hold::Free && !floats {
-            draft.end = Hold::World;
         }
         // cable is wound at a point that does not move freely
         if draft.wound[1].is_some() && draft.end == Hold::Free {
@@ -215,9 +208,7 @@ impl Draft {
                 effects.buoyancy = Some(buoyancy);
             }
             Feature::Torsion => {
-                // the torque pi EI/L bends a rope that is as stiff as this one against its weight
-                self.bending_stiffness = 0.02;
-                effects.torsion = Some(Torsion { initial_twist: 0.65, damping: 0.2, ..Torsion::new(0.0154) });
+                effects.torsion = Some(Torsion { initial_twist: 0.5, damping: 0.2, ..Torsion::new(1e-3) });
                 self.clamps = true;
             }
             Feature::Stranded => {
@@ -300,8 +291,8 @@ impl Draft {
     }
 
     /// Returns the section of the rope.
-    pub fn section(&self) -> Section {
-        Section::from_stiffness(400.0, self.bending_stiffness, 0.1).expect("a section")
+    pub fn section() -> Section {
+        Section::from_stiffness(400.0, 1e-3, 0.1).expect("a section")
     }
 }
 

@@ -138,7 +138,7 @@ impl Scene {
     }
 
     fn add_rope(&mut self, draft: &Draft, points: Vec<Vector3<f64>>, elements: usize) -> Result<CableHandle, Fault> {
-        let mut rope = Cable::builder().points(points).section(draft.section()).elements(elements);
+        let mut rope = Cable::builder().points(points).section(Draft::section()).elements(elements);
         if let Some(fidelity) = draft.fidelity {
             rope = rope.fidelity(fidelity);
         }
@@ -282,7 +282,7 @@ impl Scene {
                 let ends = [-0.43, 0.37].map(|z| middle + place + Vector3::z() * z);
                 let contact = Contact::with_friction(0.3).with_radius(RADIUS).with_cables();
                 let contact = Contact { itself: false, ..contact };
-                let mut across = Cable::builder().points(ends).section(draft.section()).elements(4);
+                let mut across = Cable::builder().points(ends).section(Draft::section()).elements(4);
                 if !draft.floats {
                     across = across.fix(At::Start).fix(At::End);
                 } else {

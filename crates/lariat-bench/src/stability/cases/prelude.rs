@@ -8,9 +8,7 @@ pub use super::super::world::materials::{l_stable_integrator, polymer_rope, stee
 pub use super::super::world::test_world::{Fault, TestWorld};
 pub use crate::stability::family::Family;
 pub use crate::stability::outcome::Check;
-pub use lariat_ancf::{
-    At, Cable, Damping, Effects, Fidelity, Integrator, Method, Section, StepControl, Torsion, Vector3,
-};
+pub use lariat_ancf::{At, Cable, Damping, Fidelity, Integrator, Method, Section, StepControl, Vector3};
 
 /// Gravity in m/s^2.
 pub const G: f64 = 9.81;

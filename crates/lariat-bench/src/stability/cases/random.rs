@@ -36,14 +36,6 @@ pub fn scene(name: String, recipe: Recipe) -> Case {
     scene.energy(0.02, 2.0).gap(1e-2).may_fail().lariat_only().budget(10)
 }
 
-/// Returns the torsion of the ropes of a quarter of the scenes, between clamps: GJ of a solid section of a Poisson number
-/// of 0.3, twisted until the torque is up to pi EI/L, a third of that which kinks a rope without tension.
-fn torsion(recipe: &Recipe, bending_stiffness: f64) -> Option<Torsion> {
-    let twisted = recipe.choose(31, 4) == 0 && bending_stiffness > 0.0;
-    let torsion = twisted.then(|| Torsion::round(bending_stiffness, 0.3).ok()).flatten()?;
-    Some(Torsion { initial_twist: 0.65 * (8.0 * recipe.0[31] - 1.0), damping: 1e-3, ..torsion })
-}
-
 fn build(w: &mut TestWorld, recipe: Recipe) -> Result<Script, Fault> {
     let weightless = recipe.choose(4, 3) == 0;
     if weightless {
@@ -77,19 +69,9 @@ fn build(w: &mut TestWorld, recipe: Recipe) -> Result<Script, Fault> {
             2 => rope.fidelity(Fidelity::Engineering),
             _ => rope.fidelity(Fidelity::Game),
         };
-        let (clamped, pinned) = (End::ClampedOn(ball, [0.0; 3]), End::On(ball, [0.0; 3]));
-        let twist = torsion(&recipe, ei);
-        let start = if twist.is_some() && matches!(before, End::Fixed) { End::Clamped } else { before };
-        before = if twist.is_some() { clamped } else { pinned };
-        let end = if twist.is_some() || recipe.choose(29, 4) == 0 { clamped } else { pinned };
-        let rope = match twist {
-            // a rope with a free end is not twisted
-            Some(_) if !matches!(start, End::Free) => {
-                rope.fidelity(Fidelity::Game).effects(Effects { torsion: twist, ..Effects::default() })
-            }
-            _ => rope,
-        };
-        w.rope(rope, start, end)?;
+        let end = if recipe.choose(29, 4) == 0 { End::ClampedOn(ball, [0.0; 3]) } else { End::On(ball, [0.0; 3]) };
+        w.rope(rope, before, end)?;
+        before = End::On(ball, [0.0; 3]);
         loads.push(ball);
         at = next;
     }

@@ -170,7 +170,6 @@ impl TestWorld {
             let own = cable.effects().clone();
             let mut effects = all_effects(9.81 * cable.elements()[0].section.mass_per_length);
             effects.damping = own.damping.or(effects.damping);
-            effects.torsion = own.torsion;
             cable.set_effects(effects)?;
         }
         let world = &mut self.physics;
