@@ -78,7 +78,8 @@ impl Cable {
     /// Returns the director of the first hold of a segment.
     fn first_director(&self, node: usize, tangent: &Vector3<f64>, twist: &SegmentTwist) -> Vector3<f64> {
         let across = |d: &Vector3<f64>| Vector3::ith(d.iamin(), 1.0).cross(d).normalize();
-        let spin = self.model.effects.torsion.map_or(EndSpin::Held, |torsion| self.model.end_spin(&torsion, node));
+        let spin =
+            self.model.effects.torsion.as_ref().map_or(&EndSpin::Held, |torsion| self.model.end_spin(torsion, node));
         let Some([w, x, y, z]) = twist.attitudes[0] else {
             return about(tangent, spin.angle(self.time())) * across(tangent);
         };

@@ -91,9 +91,11 @@ impl Cable {
         segments.into_iter().zip(twists.into_iter().flatten()).collect()
     }
 
-    /// Returns whether torsion does nothing, because no two nodes hold the spin.
+    /// Returns whether torsion does nothing, because no two nodes hold the spin, nor ever did: not
+    /// of the parts of a cable that was cut, or one that was let go.
     pub(crate) fn has_idle_torsion(&self) -> bool {
-        self.model.effects.torsion.is_some() && self.model.segments().next().is_none()
+        let knows = self.snapshot.state.memory.torsion.is_some();
+        self.model.effects.torsion.is_some() && !knows && self.model.segments().next().is_none()
     }
 
     /// Returns the nodes and the torque in N m, without its sign, of each segment, by the twists of
@@ -185,7 +187,7 @@ impl Cable {
 
     /// Returns whether no motor turns from now on.
     pub(crate) fn is_spin_still(&self) -> bool {
-        self.model.effects.torsion.is_none_or(|torsion| torsion.is_still(self.time()))
+        self.model.effects.torsion.as_ref().is_none_or(|torsion| torsion.is_still(self.time()))
     }
 
     /// Calls `f` with forces as functions of the coordinates that have torsion in them.
@@ -206,13 +208,10 @@ impl Cable {
     pub(crate) fn torsion_stiffness(&self) -> DMatrix<f64> {
         let size = self.positions().len();
         let mut stiffness = DMatrix::zeros(size, size);
-        let mut gradient = Vec::new();
-        for (segment, _) in self.segments() {
-            segment.gradient(&self.model.elements, self.positions(), &mut gradient);
-            let mut column = DVector::zeros(size);
-            column.as_mut_slice()[segment.range()].copy_from_slice(&gradient);
+        for border in self.twist_borders() {
+            let mut column = DVector::from_vec(border.gradient);
             project_vector(&self.model, column.as_mut_slice());
-            stiffness += &column * column.transpose() * segment.stiffness;
+            stiffness += &column * column.transpose() * border.stiffness;
         }
         stiffness
     }

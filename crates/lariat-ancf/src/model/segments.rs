@@ -57,17 +57,17 @@ impl Model {
     }
 
     fn holds_spin(&self, torsion: &Torsion, node: usize, support: &Support) -> bool {
-        support.slope != SlopeSupport::Free && self.end_spin(torsion, node) != EndSpin::Swivel
+        support.slope != SlopeSupport::Free && *self.end_spin(torsion, node) != EndSpin::Swivel
     }
 
     /// Returns how the spin of a node is held, if that is clamped.
-    pub(crate) fn end_spin(&self, torsion: &Torsion, node: usize) -> EndSpin {
+    pub(crate) fn end_spin<'a>(&self, torsion: &'a Torsion, node: usize) -> &'a EndSpin {
         if node == 0 {
-            torsion.start
+            &torsion.start
         } else if node == self.elements.len() {
-            torsion.end
+            &torsion.end
         } else {
-            torsion.inner
+            &torsion.inner
         }
     }
 }

@@ -99,7 +99,7 @@ fn bad_numbers_are_refused() {
         motor(f64::NAN, 0.0, 1.0),
         motor(1.0, 2.0, 1.0),
     ] {
-        let error = clamped(Some(torsion)).build().unwrap_err();
+        let error = clamped(Some(torsion.clone())).build().unwrap_err();
         assert!(matches!(error, Error::InvalidValue { .. }), "{torsion:?}: {error}");
     }
     assert!(Torsion::round(1.0, 0.6).is_err() && Torsion::round(1.0, -1.0).is_err());

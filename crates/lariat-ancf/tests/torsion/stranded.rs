@@ -210,19 +210,19 @@ fn statics_are_the_end_of_damped_motion() {
 #[test]
 fn what_tension_that_makes_torque_does_not_go_with_is_refused() {
     let stranded = torsion(0.0);
-    let torsion = Some(stranded);
+    let torsion = || Some(stranded.clone());
     let told = |error: Error| {
         assert!(matches!(error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("torque_per_tension"), "{error}");
     };
-    told(rope(Effects { torsion, axial_law: Some(AxialLaw::Rope), ..Effects::default() }).build().unwrap_err());
+    told(rope(Effects { torsion: torsion(), axial_law: Some(AxialLaw::Rope), ..Effects::default() }).build().unwrap_err());
     let curved = Some(RestShape::curved(0.5));
-    rope(Effects { torsion, rest_shape: curved, ..Effects::default() }).build().unwrap();
-    let mut cable = rope(Effects { torsion, ..Effects::default() }).build().unwrap();
+    rope(Effects { torsion: torsion(), rest_shape: curved, ..Effects::default() }).build().unwrap();
+    let mut cable = rope(Effects { torsion: torsion(), ..Effects::default() }).build().unwrap();
     told(cable.add_reel(At::End, Reel::default()).unwrap_err());
     let mut cable = rope(Effects::default()).build().unwrap();
     cable.add_reel(At::End, Reel::default()).unwrap();
-    told(cable.set_effects(Effects { torsion, ..Effects::default() }).unwrap_err());
-    let broken = Torsion { torque_per_tension: f64::NAN, ..stranded };
+    told(cable.set_effects(Effects { torsion: torsion(), ..Effects::default() }).unwrap_err());
+    let broken = Torsion { torque_per_tension: f64::NAN, ..stranded.clone() };
     assert!(rope(Effects { torsion: Some(broken), ..Effects::default() }).build().is_err());
 }

@@ -27,7 +27,7 @@ from lariat._lariat import (
 )
 from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat.contact import Obstacle
-from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, RestPiece, RestShape, Torsion
+from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, MotorCourse, RestPiece, RestShape, Torsion
 from lariat.errors import Error
 from lariat.exchange import EndMotion, Exchange, Exchanged
 from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
@@ -57,6 +57,7 @@ __all__ = [
     "Integrator",
     "LineLoad",
     "Motor",
+    "MotorCourse",
     "Obstacle",
     "PrismaticJoint",
     "Probe",

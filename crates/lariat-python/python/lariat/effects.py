@@ -65,6 +65,15 @@ class Motor:
 
 
 @dataclass(frozen=True)
+class MotorCourse:
+    """A motor that turns the spin of a clamped end by a course."""
+
+    rows: Sequence[Sequence[float]]
+    """``[[time in s, turns], ...]``, times ascending; turns are right-handed about the cable in the direction of arc length. Between rows the
+    rate is continuous (cubics), and zero between equal ones; before the first row and behind the last it holds."""
+
+
+@dataclass(frozen=True)
 class Torsion:
     """Torsion: one torque between two clamps that hold the spin. Needs the integrator "discrete-gradient"."""
 
@@ -74,9 +83,9 @@ class Torsion:
     """Turns by which the cable is twisted as built."""
     damping: float = 0.0
     """Time in s by which the twist is damped, >= 0."""
-    start: str | Motor = "held"
+    start: str | Motor | MotorCourse = "held"
     """Whether a clamp at the start holds the spin: "held", "swivel", or a motor."""
-    end: str | Motor = "held"
+    end: str | Motor | MotorCourse = "held"
     """The same at the end."""
     torque_per_tension: float = 0.0
     """Torque per tension in m while twist is held: torque factor times diameter of a stranded rope, positive for a right-hand lay.
@@ -192,13 +201,17 @@ Effect = Union[GravityScale, Buoyancy, AxialLaw, Damping, Drag, LineLoad, RestSh
 Effects = Union[Effect, Iterable[Effect], Mapping[str, Any], None]
 
 
-def _spin(end: str | Motor) -> Any:
+def _spin(end: str | Motor | MotorCourse) -> Any:
+    if isinstance(end, MotorCourse):
+        return {"course": [[float(x) for x in row] for row in end.rows]}
     return {"motor": {"rate": end.rate, "from": end.start, "until": end.until}} if isinstance(end, Motor) else end
 
 
 def _made_spin(end: Any) -> Any:
     if isinstance(end, str):
         return end
+    if "course" in end:
+        return MotorCourse(tuple(tuple(row) for row in end["course"]))
     motor = end["motor"]
     return Motor(motor["rate"], motor["from"], motor["until"])
 

@@ -70,12 +70,14 @@ mod tests;
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::error::{Error, Requirement, require};
+use crate::rows::{check_rows, is_constant};
+use crate::smooth;
 use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 /// How a clamp of a cable with [torsion](Torsion) holds its spin about the axis. At an end that is
 /// not clamped nothing holds it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum EndSpin {
     /// It turns with what it is clamped to.
@@ -92,43 +94,62 @@ pub enum EndSpin {
         /// Time in s at which it stops, and holds.
         until: f64,
     },
+    /// A motor turns it, beside what it is clamped to, by a course: rows of time in s, ascending,
+    /// and turns, right-handed about the axis in the direction of arc length. Between them the
+    /// turns and their rate are [continuous](crate::smooth); before the first row and behind the
+    /// last it holds. What counts is by how much it turns from when the cable is built.
+    Course(Vec<[f64; 2]>),
 }
 
 impl EndSpin {
     /// Returns the angle in rad of the motor at a time in s.
     pub(crate) fn angle(&self, time: f64) -> f64 {
-        match *self {
-            EndSpin::Motor { rate, from, until } => TAU * rate * (time.clamp(from, until) - from),
+        match self {
+            &EndSpin::Motor { rate, from, until } => TAU * rate * (time.clamp(from, until) - from),
+            EndSpin::Course(rows) => TAU * smooth::value(rows, time),
             EndSpin::Held | EndSpin::Swivel => 0.0,
         }
     }
 
     fn is_still(&self, time: f64) -> bool {
-        !matches!(*self, EndSpin::Motor { rate, until, .. } if rate != 0.0 && time < until)
+        self.is_steady(time, f64::INFINITY)
     }
 
     /// Whether it does not turn from one time to another.
     fn is_steady(&self, time: f64, to: f64) -> bool {
-        self.is_still(time) || matches!(*self, EndSpin::Motor { from, .. } if to <= from)
+        match self {
+            &EndSpin::Motor { rate, from, until } => rate == 0.0 || time >= until || to <= from,
+            EndSpin::Course(rows) => is_constant(rows, time, to),
+            EndSpin::Held | EndSpin::Swivel => true,
+        }
     }
 
     fn delay(&mut self, by: f64) {
-        if let EndSpin::Motor { from, until, .. } = self {
-            *from += by;
-            *until += by;
+        match self {
+            EndSpin::Motor { from, until, .. } => (*from, *until) = (*from + by, *until + by),
+            EndSpin::Course(rows) => rows.iter_mut().for_each(|row| row[0] += by),
+            EndSpin::Held | EndSpin::Swivel => {}
         }
     }
 
     fn check(&self) -> Result<(), Error> {
-        let EndSpin::Motor { rate, from, until } = *self else { return Ok(()) };
-        require("rate of a motor (turns/s)", rate, true, "a number")?;
-        require("start of a motor (s)", from, true, "a number")?;
-        require("end of a motor (s)", until, until >= from, "at or after its start")
+        match self {
+            &EndSpin::Motor { rate, from, until } => {
+                require("rate of a motor (turns/s)", rate, true, "a number")?;
+                require("start of a motor (s)", from, true, "a number")?;
+                require("end of a motor (s)", until, until >= from, "at or after its start")
+            }
+            EndSpin::Course(rows) => {
+                require("rows of the course of a motor", rows.len() as f64, !rows.is_empty(), ">= 1")?;
+                check_rows("the course of a motor (s, turns)", rows)
+            }
+            EndSpin::Held | EndSpin::Swivel => Ok(()),
+        }
     }
 }
 
 /// Torsion of an isotropic cable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torsion {
     /// Torsional stiffness GJ in N m^2, > 0.
@@ -241,7 +262,8 @@ impl Effect for Torsion {
     }
 
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
-        let (head, tail) = (Torsion { end: EndSpin::Held, ..*self }, Torsion { start: EndSpin::Held, ..*self });
+        let (head, tail) =
+            (Torsion { end: EndSpin::Held, ..self.clone() }, Torsion { start: EndSpin::Held, ..self.clone() });
         [Some(head), Some(tail)]
     }
 

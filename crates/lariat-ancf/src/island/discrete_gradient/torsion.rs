@@ -202,7 +202,7 @@ impl IslandStep<'_, '_> {
             own.before = own.remembered * (own.stiffness[0] / stiffness).sqrt();
             for (side, node) in own.segment.nodes.into_iter().enumerate() {
                 let time = snapshot.state.time;
-                let spin = torsion.map_or(EndSpin::Held, |torsion| model.end_spin(torsion, node));
+                let spin = torsion.map_or(&EndSpin::Held, |torsion| model.end_spin(torsion, node));
                 let end = &mut own.ends[side];
                 end.driven = spin.angle(time + b.h) - spin.angle(time);
                 end.angle = end.driven;

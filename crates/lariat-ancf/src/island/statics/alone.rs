@@ -75,7 +75,7 @@ impl Cable {
                 Ok(EquilibriumReport { iterations, ..report })
             }
             Err(failure) => {
-                let fold = first_fold(self, self.positions());
+                let fold = failure.fold.or_else(|| first_fold(self, self.positions()));
                 self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
@@ -156,7 +156,7 @@ impl Cable {
                 Err(failure) => {
                     // an attempt without an iteration has no residual
                     let residual = if failure.residual.is_nan() { last.residual } else { failure.residual };
-                    last = Failure { residual, ..failure };
+                    last = Failure { residual, fold: failure.fold.or(last.fold), ..failure };
                 }
             }
             if budget.spent() {
@@ -203,8 +203,9 @@ impl Cable {
         let residual = search.residual;
         match outcome {
             Ok(stable) => Ok(EquilibriumReport { iterations: budget.done, residual, stable }),
-            Err(EquilibriumFailure::Step(cause)) => Err(Failure { cause: Some(cause), residual }),
-            Err(_) => Err(Failure { cause: None, residual }),
+            Err(EquilibriumFailure::Step(cause)) => Err(Failure { cause: Some(cause), residual, fold: None }),
+            Err(EquilibriumFailure::Folded { element }) => Err(Failure { residual, fold: Some(element), cause: None }),
+            Err(_) => Err(Failure { residual, fold: None, cause: None }),
         }
     }
 
@@ -234,7 +235,7 @@ impl Cable {
         let report = self.minimise_energy(1.0, budget)?;
         match first_fold(self, self.positions()) {
             None => Ok(report),
-            Some(_) => Err(Failure { cause: None, residual: report.residual }),
+            fold => Err(Failure { cause: None, residual: report.residual, fold }),
         }
     }
 }
