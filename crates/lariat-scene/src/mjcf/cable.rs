@@ -11,8 +11,9 @@ pub(super) enum Names {
     Flex(String),
 }
 
-/// Largest strain of a composite under the weight of all that moves. Setting: MuJoCo's does not stretch.
-const STRETCH: f64 = 1e-3;
+/// Largest strain of a composite under the weight of all that moves. Setting: MuJoCo's does not stretch; a span that is
+/// drawn straight sags by `(3 STRETCH/64)^(1/3)` of its length, 0.8 %.
+const STRETCH: f64 = 1e-5;
 
 /// A cable.
 pub(super) struct Cable {
@@ -66,8 +67,8 @@ impl Cable {
         self.arcs.last().copied().unwrap_or(0.0)
     }
 
-    /// Returns the keys of its section and material under a load in N: what does not stretch in MuJoCo is stretched by
-    /// a thousandth at most.
+    /// Returns the keys of its section and material under a load in N: what does not stretch in MuJoCo is
+    /// stretched by `STRETCH` at most.
     pub fn material(&self, load: f64) -> (String, bool) {
         let stiff = load / STRETCH;
         let stiffened = !self.stretches && stiff > self.axial;

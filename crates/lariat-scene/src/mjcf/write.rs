@@ -120,7 +120,7 @@ impl Importer {
             let (keys, stiffened) = cable.material(load);
             if stiffened {
                 self.notes.push(Note::whole(format!(
-                    "cable {} does not stretch in the model: its EA is a thousand times the weight of all that moves, not {:.3e} N \
+                    "cable {} does not stretch in the model: its EA is 1e5 times the weight of all that moves, not {:.3e} N \
                      by its modulus of bending",
                     cable.name, cable.axial
                 )));

@@ -84,8 +84,18 @@ fn tips_are_where_mujoco_has_them_after_a_second() {
 #[test]
 fn cables_weigh_what_they_do_in_mujoco() {
     for row in rows().iter().filter(|row| row.mass > 0.0) {
-        let scene = scene(&import(&row.model).unwrap().scene);
-        let mass: f64 = (0..scene.cables.len()).map(|index| scene.build_cable(index).unwrap().mass()).sum();
+        let text = import(&row.model).unwrap().scene;
+        let scene = scene(&text);
+        let tables: toml::Table = text.parse().unwrap();
+        let mut mass = 0.0;
+        for (index, table) in tables["cable"].as_array().unwrap().iter().enumerate() {
+            let number = |key: &str| table.get(key).and_then(toml::Value::as_float);
+            let per_length = number("mass_per_length").unwrap_or_else(|| {
+                let diameter = table["section"]["round"].as_float().unwrap();
+                number("density").unwrap() * std::f64::consts::FRAC_PI_4 * diameter.powi(2)
+            });
+            mass += per_length * scene.build_cable(index).unwrap().length();
+        }
         assert!((mass / row.mass - 1.0).abs() < 1e-6, "{}: {mass} kg, {} in MuJoCo", row.model, row.mass);
     }
 }
