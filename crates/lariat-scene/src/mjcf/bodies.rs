@@ -228,6 +228,10 @@ impl Importer {
             Some((on, inertial)) => self.inertial(inertial, on)?,
             None => of_geoms(element, &geoms)?,
         };
+        let mut numbers = inertia.tensor.iter().chain(&inertia.centre).chain([&inertia.mass]);
+        if !numbers.all(|x| x.is_finite()) {
+            return Err(element.wrong("its mass or its inertia is no finite number"));
+        }
         if self.options.density > 0.0 {
             if self.options.wind != Vector3::zeros() {
                 return Err(element.wrong("moves, in the wind of <option>: bodies of a scene have no drag in air"));

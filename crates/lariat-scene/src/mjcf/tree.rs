@@ -48,7 +48,7 @@ impl Element {
 /// What is no XML, nests too deep, has no root `mujoco`, or includes what cannot be read.
 pub(super) fn read(file: &str, text: &str) -> Result<Element, Error> {
     let folder = Path::new(file).parent().map(Path::to_path_buf).unwrap_or_default();
-    let mut files = Files { folder, seen: HashSet::new() };
+    let mut files = Files { folder, seen: HashSet::new(), level: 0 };
     let mut root = files.parse(file, text)?;
     if root.name != "mujoco" {
         return Err(root.error("not a model of MuJoCo: its root is not <mujoco>".to_string()));
@@ -67,6 +67,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<Element, Error> {
 struct Files {
     folder: PathBuf,
     seen: HashSet<PathBuf>,
+    /// Levels of elements above the present one, in all files.
+    level: usize,
 }
 
 impl Files {
@@ -85,6 +87,10 @@ impl Files {
             attributes: node.attributes().map(|a| (a.name().to_string(), a.value().to_string())).collect(),
             children: Vec::new(),
         };
+        self.level += 1;
+        if self.level > limits::LEVELS {
+            return Err(element.error(format!("elements are nested deeper than {} levels", limits::LEVELS)));
+        }
         for child in node.children().filter(Node::is_element) {
             let child = self.element(file, child)?;
             if child.name == "include" {
@@ -93,6 +99,7 @@ impl Files {
                 element.children.push(child);
             }
         }
+        self.level -= 1;
         Ok(element)
     }
 
