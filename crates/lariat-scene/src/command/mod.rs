@@ -205,9 +205,12 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
 
 fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
     let text = crate::read_text(model)?;
-    let scene = crate::mjcf::import(&model.display().to_string(), &text)?;
-    let Some(out) = out else { return Ok(scene) };
-    std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
+    let import = crate::mjcf::read(&model.display().to_string(), &text)?;
+    for note in &import.notes {
+        warn(&note.to_string());
+    }
+    let Some(out) = out else { return Ok(import.scene) };
+    std::fs::write(out, import.scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
     Ok(format!("scene: {}\n", out.display()))
 }
 
