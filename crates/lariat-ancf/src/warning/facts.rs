@@ -8,6 +8,7 @@ impl Warning {
     pub fn level(&self) -> Level {
         match self {
             Warning::UntouchedObstacles { .. }
+            | Warning::SlowReel { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
             | Warning::Stubby { .. }
@@ -52,6 +53,7 @@ impl Warning {
             | Warning::EnergyMade { cable, .. }
             | Warning::EnergyLost { cable, .. }
             | Warning::FastReel { cable, .. }
+            | Warning::SlowReel { cable, .. }
             | Warning::UnseenLoad { cable, .. }
             | Warning::RoundedEnds { cable, .. }
             | Warning::PassedThrough { cable, .. }
@@ -103,6 +105,7 @@ impl Judged for Warning {
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
             | Warning::FastReel { .. }
+            | Warning::SlowReel { .. }
             | Warning::UnseenLoad { .. }
             | Warning::FrictionLags { .. }
             | Warning::RoundedEnds { .. } => return None,
@@ -138,6 +141,7 @@ impl Judged for Warning {
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
             Warning::FastReel { ratio, .. } | Warning::CoarseTwist { ratio, .. } => *ratio,
+            Warning::SlowReel { asked_m, given_m, .. } => (asked_m - given_m).abs(),
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Sinks { share, .. } => *share,
