@@ -23,6 +23,7 @@
 //! Calugareanu 1959 (the linking number as a sum of signed crossings).
 
 use super::crossing::crossing_with_sense;
+use crate::scales::SAME;
 use crate::scales::contact::CHUNK;
 use nalgebra::Vector3;
 
@@ -58,7 +59,7 @@ impl Way {
 /// their shapes, if their passages do not cancel; `None` for `other` is the line itself.
 pub fn crossed_on(one: &Way, other: Option<&Way>) -> Option<[usize; 2]> {
     let (same, other) = (other.is_none(), other.unwrap_or(one));
-    let (mut sum, mut first) = (0, None);
+    let mut found: Vec<([usize; 2], f64, i32)> = Vec::new();
     for a in (0..one.chords()).step_by(CHUNK) {
         let [low, high] = one.bounds(a);
         for b in (if same { a } else { 0 }..other.chords()).step_by(CHUNK) {
@@ -71,15 +72,22 @@ pub fn crossed_on(one: &Way, other: Option<&Way>) -> Option<[usize; 2]> {
                 let begin = if same { b.max(i + 2) } else { b };
                 for k in begin..(b + CHUNK).min(other.chords()) {
                     let (own, met) = ([one.moved(i), one.moved(i + 1)], [other.moved(k), other.moved(k + 1)]);
-                    if let Some((_, sense)) = crossing_with_sense([&own[0], &own[1]], [&met[0], &met[1]]) {
-                        sum += sense;
-                        first = first.or(Some([i, k]));
+                    if let Some((share, sense)) = crossing_with_sense([&own[0], &own[1]], [&met[0], &met[1]]) {
+                        // through a common point of two chords it is found on both
+                        let same = |(at, known, of): &([usize; 2], f64, i32)| {
+                            let near = at[0].abs_diff(i) <= 1 && at[1].abs_diff(k) <= 1;
+                            near && *of == sense && (known - share).abs() < SAME
+                        };
+                        if !found.iter().any(same) {
+                            found.push(([i, k], share, sense));
+                        }
                     }
                 }
             }
         }
     }
-    first.filter(|_| sum != 0)
+    let sum: i32 = found.iter().map(|(_, _, sense)| sense).sum();
+    found.first().map(|(chords, ..)| *chords).filter(|_| sum != 0)
 }
 
 #[cfg(test)]
@@ -104,7 +112,7 @@ mod tests {
         let low = line(|s| Vector3::new(x(s), 0.0, 0.0), |s| Vector3::new(x(s), 0.0, 0.0));
         let sags = |sag: f64, shift: f64| move |s: f64| Vector3::new(0.013 + shift, 0.1 - sag * s * (1.0 - s), x(s));
         let through = line(sags(0.0, 0.0), sags(2.0, 0.0));
-        assert_eq!(crossed_on(&low, Some(&through)), Some([20, 20]));
+        assert!(matches!(crossed_on(&low, Some(&through)), Some([19 | 20, 19 | 20])));
         assert!(crossed_on(&through, Some(&low)).is_some());
         let above = line(sags(0.0, 0.0), sags(0.3, 0.0));
         assert_eq!(crossed_on(&low, Some(&above)), None);
