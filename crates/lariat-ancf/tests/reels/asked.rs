@@ -33,7 +33,7 @@ fn a_free_spool_runs_free_to_the_end_of_its_stock() {
             let reel = hoist.cable.reel(At::End).unwrap();
             assert!(reel.length_out <= stock + 1e-9, "{reel:?}");
             (longest, lowest) = (longest.max(reel.length_out), lowest.max(hoist.below()));
-            if reel.length_out + 3.0 * dt * reel.rate < stock {
+            if longest < stock - 1e-6 && reel.length_out + 3.0 * dt * reel.rate < stock {
                 largest = largest.max(reel.force.abs());
                 speed = reel.rate;
                 let fallen = 0.5 * G * time * time;
