@@ -235,9 +235,9 @@ impl CableSet {
         self.equilibrium_from(world, forces, &[])
     }
 
-    /// Moves cables and bodies to static equilibrium as [`equilibrium_under`](Self::equilibrium_under)
-    /// does, of cables that were `drawn` otherwise than they are now: that is the side on which they
-    /// must be found of what they touch.
+    /// Moves cables and bodies to static equilibrium as
+    /// [`equilibrium_under`](Self::equilibrium_under) does, of cables that were `drawn` otherwise
+    /// than they are now: that is the side on which they must be found of what they touch.
     ///
     /// # Errors
     /// As [`equilibrium_under`](Self::equilibrium_under).
