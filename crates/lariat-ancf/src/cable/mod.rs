@@ -33,6 +33,7 @@ mod contact;
 mod corner;
 mod effects;
 pub mod energy;
+mod friction;
 mod grading;
 mod layout;
 pub mod linearise;

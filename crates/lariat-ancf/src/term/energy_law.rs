@@ -24,8 +24,12 @@ pub struct EnergyLaw {
     pub shortened: f64,
     /// Work of supports that move.
     pub supports: f64,
-    /// Work of point loads.
+    /// Work of point loads, and of the forces on the bodies of an island.
     pub loads: f64,
+    /// Of that, the work of the forces and torques on bodies: gravity, those of the user, and those
+    /// by which an engine's contacts and joints take part.
+    #[serde(default)]
+    pub bodies: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,
     /// Energy that the inelastic impacts lost by which pinned nodes and their bodies begin a step
@@ -54,6 +58,7 @@ impl EnergyLaw {
         self.rescaled += step.rescaled;
         self.supports += supports.work + supports.aside;
         self.loads += loads.work;
+        self.bodies += loads.aside;
         self.contacts += contacts.loss + contacts.aside;
         self.obstacles += contacts.work;
         self.residual += step.residual;
@@ -67,6 +72,7 @@ impl EnergyLaw {
         self.shortened += other.shortened;
         self.supports += other.supports;
         self.loads += other.loads;
+        self.bodies += other.bodies;
         self.contacts += other.contacts;
         self.impacts += other.impacts;
         self.uncertain += other.uncertain;
@@ -76,9 +82,12 @@ impl EnergyLaw {
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 11] {
-        let EnergyLaw { numerical, rescaled, shortened, supports, loads, contacts, .. } = *self;
+    pub(crate) fn terms(&self) -> [f64; 12] {
+        let EnergyLaw { numerical, rescaled, shortened, supports, loads, bodies, contacts, .. } = *self;
         let EnergyLaw { impacts, uncertain, obstacles, residual, made, .. } = *self;
-        [numerical, rescaled, shortened, supports, loads, contacts, impacts, uncertain, obstacles, residual, made]
+        [
+            numerical, rescaled, shortened, supports, loads, bodies, contacts, impacts, uncertain, obstacles, residual,
+            made,
+        ]
     }
 }

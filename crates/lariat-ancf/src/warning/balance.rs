@@ -52,7 +52,8 @@ impl CableAccount {
         let summed = cable.has_reel() && cable.effects().contact.is_none();
         let by_law = cable.integrator().method.uses_discrete_gradients() && !summed;
         let change = if by_law { terms.by_law - last.terms.by_law } else { terms.sum() - last.terms.sum() };
-        self.balance.dissipated_j += terms.dissipated - last.terms.dissipated;
+        let dissipated = terms.dissipated - last.terms.dissipated;
+        self.balance.dissipated_j += dissipated;
         self.balance.work_j += terms.work - last.terms.work;
         self.note_errors(
             terms.kinetic + terms.strain.abs() + terms.gravity.abs(),
@@ -66,7 +67,7 @@ impl CableAccount {
             weight,
             stiffness,
         };
-        self.balance.add(cable.time(), change, by_law, &sizes);
+        self.balance.add(cable.time(), change, if by_law { dissipated } else { 0.0 }, &sizes);
     }
 }
 

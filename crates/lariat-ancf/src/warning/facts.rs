@@ -8,6 +8,7 @@ impl Warning {
     pub fn level(&self) -> Level {
         match self {
             Warning::UntouchedObstacles { .. }
+            | Warning::SlowReel { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
             | Warning::MuchSlack { .. }
@@ -63,6 +64,7 @@ impl Warning {
             | Warning::EnergyMade { cable, .. }
             | Warning::EnergyLost { cable, .. }
             | Warning::FastReel { cable, .. }
+            | Warning::SlowReel { cable, .. }
             | Warning::UnseenLoad { cable, .. }
             | Warning::RoundedEnds { cable, .. }
             | Warning::PassedThrough { cable, .. }
@@ -123,6 +125,7 @@ impl Judged for Warning {
             | Warning::MomentAlong { .. }
             | Warning::StiffTorsion { .. }
             | Warning::FastReel { .. }
+            | Warning::SlowReel { .. }
             | Warning::UnseenLoad { .. }
             | Warning::FrictionLags { .. }
             | Warning::RoundedEnds { .. } => return None,
@@ -165,6 +168,7 @@ impl Judged for Warning {
             | Warning::StiffTorsion { ratio, .. }
             | Warning::KinksThroughItself { share: ratio, .. } => *ratio,
             Warning::MomentAlong { part_nm, .. } => *part_nm,
+            Warning::SlowReel { asked_m, given_m, .. } => (asked_m - given_m).abs(),
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Sinks { share, .. } => *share,

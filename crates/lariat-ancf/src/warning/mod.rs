@@ -238,6 +238,23 @@ pub enum Warning {
         /// Rate over the speed of transverse waves.
         ratio: f64,
     },
+    /// A table of rates asks for changes that the acceleration of the reel does not give.
+    #[error(
+        "cable {cable:?}: the rates of its reel ask for {asked_m:.4} m, and with an acceleration of {acceleration_m_s2:.3} m/s^2 it gives {given_m:.4} m: {rate_m_s:.3} m/s is \
+         not reached before the next row; give it more acceleration, or the rows more time"
+    )]
+    SlowReel {
+        /// Name of the cable.
+        cable: String,
+        /// Length in m that the table asks for.
+        asked_m: f64,
+        /// Length in m that the acceleration gives.
+        given_m: f64,
+        /// Largest rate in m/s that is not reached.
+        rate_m_s: f64,
+        /// Acceleration of the reel in m/s^2.
+        acceleration_m_s2: f64,
+    },
     /// Its load may have exceeded what it withstands between two integration steps, and none of
     /// them saw it.
     #[error(

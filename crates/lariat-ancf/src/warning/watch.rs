@@ -12,6 +12,7 @@
 use super::advised::more;
 use super::torsion::stiff_torsion;
 use super::{Level, Warning, fold, less_elongation, sizes};
+use crate::at::At;
 use crate::cable::Cable;
 use crate::integrate::{Fidelity, OneStep};
 use crate::scales::watch::{DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN};
@@ -23,7 +24,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 23] = [
+const LAWS: [(Law, bool); 24] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -45,6 +46,7 @@ const LAWS: [(Law, bool); 23] = [
     (|_, cable, _| stiff_torsion(cable), true),
     (|_, cable, _| untouched(cable), true),
     (|watch, cable, _| watch.layers.moment(cable), true),
+    (|_, cable, _| slow_reel(cable), true),
     (|watch, cable, error| watch.layers.kink(cable).filter(|_| error.is_none()), true),
     (Watch::green_strain, true),
 ];
@@ -211,6 +213,21 @@ impl Watch {
         let steps = cable.diagnostics().crossed_steps;
         (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
     }
+}
+
+/// Whether a table of rates asks for more than its acceleration gives.
+fn slow_reel(cable: &Cable) -> Option<Warning> {
+    let reels = [At::Start, At::End].into_iter().filter_map(|at| cable.reel_description(at));
+    reels.filter_map(|reel| Some((reel.acceleration, reel.shortfall()?))).next().map(|(acceleration, lengths)| {
+        let [asked_m, given_m, rate_m_s] = lengths;
+        Warning::SlowReel {
+            cable: cable.name().to_string(),
+            asked_m,
+            given_m,
+            rate_m_s,
+            acceleration_m_s2: acceleration,
+        }
+    })
 }
 
 /// Whether steps were accepted that the tolerance refuses.

@@ -33,6 +33,10 @@ pub struct CableStatics {
     /// Largest distance of a point below the straight line between the supports on both sides of it, along gravity, in m. `None`
     /// without gravity, or if no two supports lie at different horizontal positions.
     pub sag_m: Option<f64>,
+    /// Largest difference of tensions along the cable in N that friction of what it rests on could hold: the shape is found without,
+    /// so tensions may be off by as much. 0 without contact.
+    #[serde(default)]
+    pub friction_n: f64,
     /// Forces and moments on what holds the cable, by arc length.
     pub reactions: Vec<StaticReaction>,
 }
@@ -129,6 +133,7 @@ impl CableStatics {
             peak_tension_at_m,
             tension_jump_n: cable.tension_jump(),
             sag_m,
+            friction_n: cable.friction_bound(),
             reactions,
         })
     }

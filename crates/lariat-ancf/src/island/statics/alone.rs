@@ -7,7 +7,8 @@ use crate::cable::Cable;
 use crate::cable::Snapshot;
 use crate::contact::Overlap;
 use crate::error::{EquilibriumFailure, Error, require};
-use crate::model::Model;
+use crate::model::{LoadScale, Model};
+use crate::scales::statics::PULLS;
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
@@ -68,7 +69,9 @@ impl Cable {
                 self.snapshot.work = work;
                 self.set_at_rest();
                 self.snapshot.state.memory.contacts = contacts;
-                if let Some(failure) = self.crosses() {
+                let pulls = PULLS
+                    * report.residual.max(options.tolerance * LoadScale::new(&self.model, self.positions()).force);
+                if let Some(failure) = self.crosses().or_else(|| self.slips(pulls)) {
                     self.snapshot = before;
                     return Err(no_equilibrium(self, failure, 0.0, iterations));
                 }
