@@ -66,6 +66,7 @@ mod reel;
 mod rows;
 mod rule;
 mod scales;
+pub mod seal;
 mod section;
 mod simd;
 mod state;
