@@ -67,6 +67,7 @@ mod reel;
 mod rows;
 mod rule;
 mod scales;
+pub mod seal;
 mod section;
 mod simd;
 pub mod smooth;

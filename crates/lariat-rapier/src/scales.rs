@@ -72,6 +72,21 @@ pub(crate) mod body {
     /// chains.rs), one in ten where the force is right.
     pub(crate) const SETTLE_STEPS: f64 = 0.25;
 
+    /// Share of the way of a body from which a gap of its joints is told. Setting: the error of
+    /// position that is promised to be told.
+    pub(crate) const JOINT_WAY: f64 = 0.1;
+
+    /// Share of the arm of a joint from which its gap is told of a body at rest. Setting: that of
+    /// the length of a cable from which its positions are warned of.
+    pub(crate) const JOINT_GAP: f64 = 2e-3;
+
+    /// Time in s and Rapier steps for which a gap must last. Derived: a blow opens a joint for a
+    /// step or two, until Rapier has corrected its position.
+    pub(crate) const JOINT_TIME: f64 = 0.05;
+
+    /// Rapier steps for which a gap must last. Derived: as above.
+    pub(crate) const JOINT_STEPS: u32 = 3;
+
     /// Speed in m/s below which a deviation is rounding. Unknown: what Rapier's rounding gives to
     /// bodies at rest is to be below it.
     pub(crate) const SETTLE_SPEED: f64 = 1e-4;

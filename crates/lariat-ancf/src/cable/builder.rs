@@ -333,7 +333,7 @@ impl CableBuilder {
         let arc_length = |at: At| match at {
             At::Start | At::Node(0) => Ok(0.0),
             At::End => Ok(length),
-            At::ArcLength(s) => Ok(s),
+            At::ArcLength(s) => Ok(grading::on_length(s, length).unwrap_or(s)),
             At::Node(node) => Err(Error::NodeBeforeMesh { cable: cable(), node }),
         };
         let mut breaks = vec![0.0, length];
@@ -350,10 +350,13 @@ impl CableBuilder {
                 Some(Grading { finest: *finest, points })
             }
         };
-        for &s in breaks.iter().chain(self.loads.iter().map(|l| &l.arc_length)) {
-            if !(s >= 0.0 && s <= length * (1.0 + 1e-12)) {
-                return Err(Error::OutOfRange { cable: self.name, what: "arc length", value: s, limit: length });
-            }
+        for s in breaks.iter_mut().chain(self.loads.iter_mut().map(|load| &mut load.arc_length)) {
+            *s = grading::on_length(*s, length).ok_or_else(|| Error::OutOfRange {
+                cable: self.name.clone(),
+                what: "arc length",
+                value: *s,
+                limit: length,
+            })?;
         }
         let s = grading::nodes(&mut breaks, length, self.elements, grading.as_ref())?;
         let elements: Vec<Element> = s

@@ -33,9 +33,9 @@ impl Cable {
     /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers
     /// that are not finite, [`Error::NotWithReel`] for a load on the element at the eye of a reel.
     pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
-        self.check_arc_length(load.arc_length)?;
+        let arc_length = self.on_cable(load.arc_length)?;
         load.check().map_err(|e| e.of_cable(self.name()))?;
-        self.model.loads.push(PointLoad { start: self.time(), ..load });
+        self.model.loads.push(PointLoad { arc_length, start: self.time(), ..load });
         if let Err(error) = self.model.check_loads_at_eyes() {
             self.model.loads.pop();
             return Err(error.of_cable(self.name()));

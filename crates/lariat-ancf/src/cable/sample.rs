@@ -75,10 +75,10 @@ impl Cable {
     /// Returns the state of the cable at an arc length of the unstretched cable, in m.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if `arc_length` is not in `[0, length]`.
+    /// [`Error::OutOfRange`] if `arc_length` is not in `[0, length]`, by more than 1e-9 of the
+    /// length.
     pub fn sample(&self, arc_length: f64) -> Result<Sample, Error> {
-        self.check_arc_length(arc_length)?;
-        let (e, xi) = self.model.locate(arc_length);
+        let (e, xi) = self.model.locate(self.on_cable(arc_length)?);
         Ok(self.smooth_in(e, xi))
     }
 

@@ -40,7 +40,7 @@ impl Cable {
         let lines: Vec<_> = segments.iter().map(|(segment, twist)| self.directors(segment, twist)).collect();
         let direction = |&place: &f64| {
             let here = self.sample(place)?;
-            let (e, xi) = self.model.locate(place);
+            let (e, xi) = self.model.locate(self.on_cable(place)?);
             let Some(k) = segments.iter().position(|(segment, _)| segment.contains(e)) else { return Ok(None) };
             let (segment, twist) = &segments[k];
             let rate = segment.rate_in(self.unstressed(), self.positions(), twist.twist, e);

@@ -62,8 +62,7 @@ impl Cable {
     /// # Errors
     /// [`Error::OutOfRange`] beyond the cable.
     pub fn torsion_at(&self, arc_length: f64) -> Result<Option<TorsionReading>, Error> {
-        self.check_arc_length(arc_length)?;
-        let (element, _) = self.model.locate(arc_length);
+        let (element, _) = self.model.locate(self.on_cable(arc_length)?);
         let contains = |reading: &TorsionReading| (reading.nodes[0]..reading.nodes[1]).contains(&element);
         Ok(self.torsion().into_iter().find(contains))
     }

@@ -75,6 +75,19 @@ pub enum StepFailure {
     /// A method that the system cannot take.
     #[error("the system has no discrete gradients: use another method")]
     NoDiscreteGradient,
+    /// A step that fails beside an obstacle that was moved by its pose alone.
+    #[error(
+        "{cause}; before this step obstacle {key} was put {distance:.2e} m from where its motion led, as one at rest: one that moves needs its velocity \
+         (`Obstacle::moving`), with which contact meets it in time"
+    )]
+    PosedObstacle {
+        /// Key of the obstacle.
+        key: u64,
+        /// By how far it was moved in m.
+        distance: f64,
+        /// Why the step failed.
+        cause: Box<StepFailure>,
+    },
     /// The matrix of the step is singular.
     #[error("singular step matrix: {0}")]
     Singular(#[from] crate::linalg::SingularMatrix),

@@ -2,15 +2,16 @@
 //!
 //! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of
 //! [`lariat_ancf::warning`] is an [`Event::Warning`] once, after the host step in which it came up,
-//! and is logged, for programs that do not look at events.
+//! and is logged, for programs that do not look at events. What is wrong with how a cable or an
+//! attachment begins is logged before its first host step.
 //! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time. Both are told up to
 //! the level of [`Settings::warn_level`](crate::Settings::warn_level), and but for what follows
 //! from what is told of the same cable ([`lariat_ancf::warning::fold`]).
 
 use crate::body::unsettled::Unsettled;
-use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::contents::gaps::OpenGap;
+use crate::contents::{Contents, Slot};
 use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
@@ -22,6 +23,7 @@ use lariat_ancf::Level;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::fold::{self, Judged, Sign};
+use lariat_ancf::{Cable, Level};
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;
@@ -77,11 +79,11 @@ pub enum Warning {
         /// The gap.
         gap: OpenGap,
     },
-    /// What joints, limits and contacts do to a body on joints changed from step to step.
+    /// What joints, limits and contacts do to a body on joints changed from step to step, or the
+    /// joints came apart.
     #[error(
-        "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: in {:.0} % of the steps before {:.3} s, and its \
-         forces are {:.1} % off those that moved it; do not trust them: take shorter host steps, more `Settings::rapier_steps` or solver iterations, weld links \
-         into one body, or keep heavy links away from light ones", 100.0 * how.steps, how.time, 100.0 * how.force
+        "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: {}; do not trust its position and forces: take shorter \
+         host steps, more `Settings::rapier_steps` or solver iterations, weld links into one body, or keep heavy links away from light ones", how.text()
     )]
     Unsettled {
         /// The attachment.
@@ -245,27 +247,7 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     for (cable, slot) in contents.cables.iter() {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
-        for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
-            let except = held_beside(contents, handle, &slot.cable, shape);
-            let own = !except.is_empty();
-            let touches = slot.cable.effects().contact.is_some() && slot.rules.allow(shape);
-            if own && !touches {
-                continue;
-            }
-            if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
-                let name = slot.cable.name().to_string();
-                warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth, own });
-            }
-        }
-        if let Some(contact) = slot.cable.effects().contact {
-            let allowed = world.colliders.iter().filter(|(_, collider)| slot.rules.allow(collider));
-            let bounces = allowed.map(|(h, collider)| (h, slot.rules.restitution(contact.restitution, collider)));
-            let largest = bounces.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|found| found.1 > LARGEST_RESTITUTION);
-            if let Some((collider, restitution)) = largest {
-                let name = slot.cable.name().to_string();
-                warnings.push(Warning::HighRestitution { cable: handle, name, collider, restitution });
-            }
-        }
+        warnings.extend(at_start(contents, world, handle, slot));
     }
     let attachments = contents.attachments.iter();
     for (i, a) in attachments {
@@ -274,6 +256,33 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         warnings.extend(far_anchor(contents, attachment, a, world));
         if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
             warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
+        }
+    }
+    warnings
+}
+
+/// Returns what is to be said about a cable where it is, before it is stepped.
+fn at_start(contents: &Contents, world: &PhysicsWorld, handle: CableHandle, slot: &Slot) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
+        let except = held_beside(contents, handle, &slot.cable, shape);
+        let own = !except.is_empty();
+        let touches = slot.cable.effects().contact.is_some() && slot.rules.allow(shape);
+        if own && !touches {
+            continue;
+        }
+        if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
+            let name = slot.cable.name().to_string();
+            warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth, own });
+        }
+    }
+    if let Some(contact) = slot.cable.effects().contact {
+        let allowed = world.colliders.iter().filter(|(_, collider)| slot.rules.allow(collider));
+        let bounces = allowed.map(|(h, collider)| (h, slot.rules.restitution(contact.restitution, collider)));
+        let largest = bounces.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|found| found.1 > LARGEST_RESTITUTION);
+        if let Some((collider, restitution)) = largest {
+            let name = slot.cable.name().to_string();
+            warnings.push(Warning::HighRestitution { cable: handle, name, collider, restitution });
         }
     }
     warnings
@@ -338,6 +347,30 @@ fn far_anchor(
     let name = contents.cable(own.cable).ok()?.name().to_string();
     let far = radius > 0.0 && distance > FAR_ANCHOR * radius;
     far.then_some(Warning::FarAnchor { attachment, name, distance, radius })
+}
+
+/// Logs, before a host step, what is wrong with how cables and attachments begin that have not been
+/// stepped: where they lie and how they move is what the user gave.
+pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld) {
+    for index in 0..contents.cables.len() {
+        let Some(slot) = contents.cables.get_mut(index).filter(|slot| slot.cable.is_watched()) else { continue };
+        if core::mem::replace(&mut slot.introduced, true) {
+            continue;
+        }
+        if let Some(slot) = contents.cables.get(index) {
+            let warnings = at_start(contents, world, CableHandle(index as u32), slot);
+            warnings.iter().for_each(|warning| log::warn!("{warning}"));
+        }
+    }
+    for index in 0..contents.attachments.len() {
+        let is_new = contents.attachments.get_mut(index).is_some_and(|attachment| attachment.watch.introduce());
+        let Some(own) = contents.attachments.get(index).filter(|_| is_new) else { continue };
+        let is_watched = contents.cable(own.cable).is_ok_and(Cable::is_watched);
+        let warning = of_attachment(contents, AttachmentHandle(index as u32), own, world);
+        if let Some(warning) = warning.filter(|_| is_watched) {
+            log::warn!("{warning}");
+        }
+    }
 }
 
 /// Reads the cables at the end of a host step, and tells them first whether nothing else acts on

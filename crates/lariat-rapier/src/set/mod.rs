@@ -58,7 +58,8 @@ use serde::{Deserialize, Serialize};
 /// # Snapshots
 /// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON
 /// needs `serde_json` with its feature `float_roundtrip`, without which numbers change in their
-/// last digit.
+/// last digit. A [seal](lariat_ancf::seal) around the bytes refuses damaged ones, and those of
+/// another version.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CableSet {
     /// How the set steps.

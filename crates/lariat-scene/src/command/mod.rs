@@ -12,6 +12,7 @@ pub use keys::print as keys;
 pub use tables::rules;
 
 use crate::run::{self, Options, State, Summary};
+use crate::signed::Comment;
 use crate::{Error, Purpose, Scene};
 use clap::{Args, Parser, Subcommand};
 use lariat_ancf::Level;
@@ -50,7 +51,7 @@ enum Command {
     Import {
         /// Model (MJCF, .xml)
         model: PathBuf,
-        /// Write the scene to this file instead
+        /// Write the scene to this file instead; one that an import wrote, and nobody changed, is replaced
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
@@ -210,7 +211,7 @@ fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
         warn(&note.to_string());
     }
     let Some(out) = out else { return Ok(import.scene) };
-    std::fs::write(out, import.scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
+    crate::signed::write(out, &import.scene, Comment::HASH)?;
     Ok(format!("scene: {}\n", out.display()))
 }
 

@@ -37,7 +37,7 @@ pub struct CableStatics {
     /// so tensions may be off by as much. 0 without contact.
     #[serde(default)]
     pub friction_n: f64,
-    /// Forces and moments on what holds the cable, by arc length.
+    /// Forces and moments on what holds the cable, by arc length; one for each point that is held.
     pub reactions: Vec<StaticReaction>,
 }
 
@@ -45,7 +45,7 @@ pub struct CableStatics {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StaticReaction {
-    /// Name of the attachment or junction.
+    /// Name of the attachment or junction; at a knot those of all its junctions, between commas.
     pub name: String,
     /// Arc length in m.
     pub at_m: f64,
@@ -116,6 +116,14 @@ impl CableStatics {
             );
         }
         held.sort_by(|a, b| a.1.total_cmp(&b.1));
+        // the cable pulls once at a knot, however many junctions tie it
+        held.dedup_by(|next, first| {
+            let is_same = cable.node(next.1).ok().is_some_and(|node| cable.node(first.1).ok() == Some(node));
+            if is_same {
+                first.0 = format!("{}, {}", first.0, next.0);
+            }
+            is_same
+        });
         let (peak_tension_at_m, peak_tension_n) = cable.peak_tension();
         let supports: Vec<f64> = held.iter().map(|(_, arc_length)| *arc_length).collect();
         let sag_m = sag(cable, &supports, &scene.gravity)?;

@@ -83,11 +83,10 @@ pub enum Warning {
         /// Whether they met.
         closed: bool,
     },
-    /// An attachment to a body on joints that did not move as predicted for a second.
+    /// An attachment to a body on joints that did not move as predicted for a second, or whose joints came apart.
     #[error(
-        "attachment {attachment:?}: the joints of its body did not hold it as predicted, in {:.0} % of the steps before {time_s:.3} s, and the forces there are \
-         {:.1} % off those that moved it; do not trust the forces of its cables: take a shorter `dt`, more iterations or a multibody, or weld links into one body",
-        100.0 * .steps, 100.0 * .force
+        "attachment {attachment:?}: the joints of its body did not hold it as predicted: {}; do not trust its position and the forces of its cables: take a \
+         shorter `dt`, more iterations or a multibody, weld links into one body, or keep heavy links away from light ones", unsettled(*.time_s, *.steps, *.force, *.gap_m)
     )]
     Unsettled {
         /// Name of the attachment.
@@ -95,13 +94,16 @@ pub enum Warning {
         /// Name of its cable.
         #[serde(default)]
         cable: String,
-        /// Time in s at the end of the worst half second.
+        /// Time in s at the end of the worst half second, or of the largest gap.
         time_s: f64,
         /// Share of the steps in which the body deviated from its prediction.
         steps: f64,
         /// Difference between the forces that were read and those that moved the body, as a share
         /// of these.
         force: f64,
+        /// Distance in m by which a joint of the body came apart; 0 where all of them hold.
+        #[serde(default)]
+        gap_m: f64,
     },
     /// A sheave that a point of its cable stopped.
     #[error(
@@ -425,6 +427,10 @@ pub enum Warning {
 fn until(horizon: Option<f64>, estimate: Option<f64>) -> String {
     let horizon = horizon.map_or(String::new(), |time| format!(" from {time:.4} s on"));
     estimate.map_or(horizon.clone(), |estimate| format!("{horizon} (estimate {estimate:.1e} m)"))
+}
+
+fn unsettled(time_s: f64, steps: f64, force: f64, gap_m: f64) -> String {
+    lariat_rapier::Unsettled::new(time_s, steps, force, gap_m).text()
 }
 
 fn would_need(elements: Option<usize>) -> String {
