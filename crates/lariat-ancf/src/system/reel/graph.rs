@@ -98,18 +98,20 @@ impl Graph {
         [self.wanted.min(self.balanced), self.wanted.max(self.balanced)]
     }
 
-    /// Returns the acceleration at which a force meets the graph, from a present one; `pulls` press
-    /// where it slips to larger and to lesser accelerations.
+    /// Returns the acceleration at which a force meets the graph, from a present one; the lesser of
+    /// both `pulls` presses, without inertia the first one where it slips to larger accelerations.
     pub fn meet(&self, present: f64, force: Line, bound: &Bound, pulls: &[Line; 2]) -> f64 {
         let slip = |sign: f64| {
-            let pull = pulls[usize::from(sign < 0.0)];
-            let with = |grip: f64| {
+            let with = |grip: f64, pull: &Line| {
                 let stiffness = force.stiffness - sign * grip * pull.stiffness;
                 let over = force.value - sign * (grip * (pull.value - bound.lift) + bound.limit);
                 over / stiffness.max(f64::MIN_POSITIVE)
             };
-            let x = with(bound.grip);
-            present + if pull.at(x) >= bound.lift { x } else { with(0.0) }
+            // without inertia that towards which it slips is the larger one
+            let [less, more] = if sign < 0.0 { [&pulls[1], &pulls[0]] } else { [&pulls[0], &pulls[1]] };
+            let (x, y) = (with(bound.grip, less), with(bound.grip, more));
+            let (x, pull) = if less.at(x) > more.at(x) && more.at(y) <= less.at(y) { (y, more) } else { (x, less) };
+            present + if pull.at(x) >= bound.lift { x } else { with(0.0, pull) }
         };
         let [low, high] = self.corners();
         if self.wanted != 0.0 {
@@ -153,8 +155,8 @@ impl Graph {
 mod tests {
     use super::*;
 
-    /// The point that is met is on the graph: of motors, and of sheaves without inertia, at rest
-    /// and running, with stops near and far.
+    /// The point that is met is on the graph: of motors, and of sheaves with and without inertia, at
+    /// rest and running, with stops near and far. Friction loses energy.
     ///
     /// *Source.* The graph itself: force, bound and stops at the point.
     #[test]
@@ -176,10 +178,14 @@ mod tests {
                 Line { value: 2.0 + 10.0 * any(), stiffness }
             });
             let [a, b] = pulls;
-            let force = Line { value: b.value - a.value, stiffness: b.stiffness - a.stiffness };
+            let present = 5.0 * any();
+            let inertia = if i % 5 < 2 { 0.0 } else { 4.0 * any().abs() };
+            let force = Line {
+                value: b.value - a.value - inertia * present,
+                stiffness: b.stiffness - a.stiffness + inertia,
+            };
             let grip = if i % 2 == 0 { 0.0 } else { 3.0 * any().abs() };
             let bound = Bound { limit: 3.0 * any().abs(), grip, lift: 0.3 * any().abs() };
-            let present = 5.0 * any();
             let at = graph.meet(present, force, &bound, &pulls);
             let x = at - present;
             let missed = graph.violation(at, force.at(x), bound.under(a.at(x).min(b.at(x))));
