@@ -32,6 +32,8 @@ pub struct EnergyLaw {
     pub bodies: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,
+    /// Energy that the friction of sheaves took. Never falls.
+    pub sheaves: f64,
     /// Energy that the inelastic impacts lost by which pinned nodes and their bodies begin a step
     /// with one velocity, where an engine, a user or a collision changed that of the body; of the
     /// methods with accelerations. Never falls.
@@ -50,16 +52,22 @@ pub struct EnergyLaw {
 }
 
 impl EnergyLaw {
+    /// Returns the energy in J that contacts, sheaves and impacts took.
+    pub fn dissipated(&self) -> f64 {
+        self.contacts + self.sheaves + self.impacts
+    }
+
     /// Adds a step.
     pub(crate) fn add(&mut self, step: &Balance) {
-        let [supports, loads, contacts] =
-            [Account::Supports, Account::Loads, Account::Contacts].map(|account| step.of(account));
+        let [supports, loads, contacts, reels] =
+            [Account::Supports, Account::Loads, Account::Contacts, Account::Reels].map(|account| step.of(account));
         self.numerical += step.numerical;
         self.rescaled += step.rescaled;
         self.supports += supports.work + supports.aside;
         self.loads += loads.work;
         self.bodies += loads.aside;
         self.contacts += contacts.loss + contacts.aside;
+        self.sheaves += reels.aside;
         self.obstacles += contacts.work;
         self.residual += step.residual;
         self.made = self.made.max(step.excess());
@@ -74,6 +82,7 @@ impl EnergyLaw {
         self.loads += other.loads;
         self.bodies += other.bodies;
         self.contacts += other.contacts;
+        self.sheaves += other.sheaves;
         self.impacts += other.impacts;
         self.uncertain += other.uncertain;
         self.obstacles += other.obstacles;
@@ -82,12 +91,12 @@ impl EnergyLaw {
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 12] {
+    pub(crate) fn terms(&self) -> [f64; 13] {
         let EnergyLaw { numerical, rescaled, shortened, supports, loads, bodies, contacts, .. } = *self;
-        let EnergyLaw { impacts, uncertain, obstacles, residual, made, .. } = *self;
+        let EnergyLaw { sheaves, impacts, uncertain, obstacles, residual, made, .. } = *self;
         [
-            numerical, rescaled, shortened, supports, loads, bodies, contacts, impacts, uncertain, obstacles, residual,
-            made,
+            numerical, rescaled, shortened, supports, loads, bodies, contacts, sheaves, impacts, uncertain, obstacles,
+            residual, made,
         ]
     }
 }

@@ -19,7 +19,7 @@ impl CableTerms {
     /// Reads the works on a cable, without its energies.
     pub fn of_works(cable: &Cable) -> Self {
         let (effects, law) = (cable.effect_work(), cable.energy_law());
-        let dissipated = effects.dissipated() + law.contacts + law.impacts;
+        let dissipated = effects.dissipated() + law.dissipated();
         let reels: f64 = cable.reels().map(|reel| reel.work + reel.remeshed).sum();
         // impacts do no work: they take energy
         let of_effects = effects.total() + dissipated - law.impacts;

@@ -188,7 +188,7 @@ impl World {
 
 /// Returns the energy in J that damping, drag, friction and impacts have taken from a cable.
 fn dissipated(cable: &Cable) -> f64 {
-    cable.effect_work().dissipated() + cable.energy_law().contacts + cable.energy_law().impacts
+    cable.effect_work().dissipated() + cable.energy_law().dissipated()
 }
 
 /// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.

@@ -202,7 +202,7 @@ impl Law {
         }
         self.commanded = commanded.clamp(low, high).clamp(least, largest);
         let [least, wanted, largest] = [least, self.commanded, largest].map(|end| (end - rate) / h);
-        self.graph = Graph { least, wanted, largest };
+        self.graph = Graph { least, wanted, balanced: wanted, largest };
         let middle = (time + 0.5 * h - self.begun) / duration;
         self.limit = limits[1] + (1.0 - middle).clamp(0.0, 1.0) * (limits[0] - limits[1]);
         self.reach = REACH.map(|share| 2.0 * ((share - 1.0) * length - h * rate) / (h * h));
