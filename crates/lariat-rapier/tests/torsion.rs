@@ -241,7 +241,7 @@ fn hoist(start: EndSpin) -> (PhysicsWorld, CableSet, CableHandle) {
 #[test]
 fn a_snapshot_of_a_twisted_cable_replays_to_the_bit() {
     let motor = EndSpin::Motor { rate: 0.7, from: 0.2, until: 1.1 };
-    let (mut world, mut set, rope) = hoist(motor);
+    let (mut world, mut set, rope) = hoist(motor.clone());
     let (mut other_world, mut other_set, _) = hoist(motor);
     for k in 0..6 {
         for _ in 0..15 {
@@ -364,7 +364,7 @@ fn a_disc_that_has_come_to_rest_sleeps_until_a_motor_is_set() {
     let mut set = CableSet::new();
     let torsion = Torsion { initial_twist: 0.05, damping: 0.3, ..Torsion::new(0.02) };
     let damping = Some(Damping::from_ratio(0.1, 140.0).unwrap());
-    let effects = Effects { torsion: Some(torsion), damping, ..Effects::default() };
+    let effects = Effects { torsion: Some(torsion.clone()), damping, ..Effects::default() };
     let rope = cable(Vector3::zeros(), -Vector3::y(), 0.02, 0.05).effects(effects).clamp(At::Start);
     let rope = set.insert(rope.build().unwrap());
     set.attach(&world, rope, At::End, body, Vector::ZERO, AttachmentKind::Clamp).unwrap();

@@ -163,7 +163,7 @@ impl Cable {
         let node = if xi == 0.0 { element } else { element + 1 };
         let clamped = self.model.support(node).is_some_and(|support| support.slope != SlopeSupport::Free);
         let spin = self.model.effects.torsion.as_ref().map(|torsion| self.model.end_spin(torsion, node));
-        (xi == 0.0 || xi == 1.0) && clamped && spin != Some(EndSpin::Swivel)
+        (xi == 0.0 || xi == 1.0) && clamped && spin != Some(&EndSpin::Swivel)
     }
 
     /// Returns by segment how far in m its twist turns the surface at its end: that of a solid

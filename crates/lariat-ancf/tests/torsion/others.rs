@@ -369,9 +369,9 @@ fn a_moment_about_the_tangent_is_told() {
     };
     let swivel = Torsion { end: EndSpin::Swivel, ..twisted(0.0) };
     for torsion in [None, Some(twisted(0.5))] {
-        let part = told(torsion, 0.5, Vector3::new(0.05, 0.0, 0.02)).unwrap();
+        let part = told(torsion.clone(), 0.5, Vector3::new(0.05, 0.0, 0.02)).unwrap();
         assert!((part - 0.05).abs() < 1e-6, "{part}");
-        assert_eq!(told(torsion, 0.5, Vector3::new(0.0, 0.0, 0.05)), None);
+        assert_eq!(told(torsion.clone(), 0.5, Vector3::new(0.0, 0.0, 0.05)), None);
         assert_eq!(told(torsion, 1.0, Vector3::new(0.05, 0.0, 0.0)), None);
     }
     assert!(told(Some(swivel), 1.0, Vector3::new(0.05, 0.0, 0.0)).is_some());

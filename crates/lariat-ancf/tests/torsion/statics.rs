@@ -1,7 +1,7 @@
 //! Statics of twisted rods against closed forms, and against the continuum solved by shooting.
 
 use lariat_ancf::{At, Cable, Effects, Motion, Section, SlopeSupport, Support, Torsion, Vector3};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A weightless rod of 1 m through given positions and slopes at equal arc lengths, both ends
 /// clamped.

@@ -19,7 +19,6 @@ use crate::handle::{AttachmentHandle, CableHandle};
 use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
 use crate::scales::read::{FAR_ANCHOR, JOLT};
-use lariat_ancf::Level;
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::fold::{self, Judged, Sign};

@@ -184,7 +184,7 @@ impl Torsion {
     /// Torsion of stiffness GJ in N m^2: untwisted as built, clamps hold the spin.
     pub fn new(stiffness: f64) -> Self {
         let (initial_twist, damping, torque_per_tension) = (0.0, 0.0, 0.0);
-        let [start, end, inner] = [EndSpin::Held; 3];
+        let [start, end, inner] = [const { EndSpin::Held }; 3];
         Torsion { stiffness, initial_twist, damping, torque_per_tension, start, end, inner }
     }
 
@@ -216,8 +216,8 @@ impl Torsion {
 
 impl Torsion {
     /// Returns all settings of the spin.
-    fn spins(&self) -> [EndSpin; 3] {
-        [self.start, self.end, self.inner]
+    fn spins(&self) -> [&EndSpin; 3] {
+        [&self.start, &self.end, &self.inner]
     }
 
     /// Returns whether no motor turns from a time in s on.
@@ -242,7 +242,7 @@ impl Effect for Torsion {
         if cable.has_no_bending() {
             return Err(cable.missing("torsion", Requirement::BendingRule));
         }
-        self.spins().iter().try_for_each(EndSpin::check)
+        self.spins().iter().try_for_each(|spin| spin.check())
     }
 
     fn depends_on_velocity(&self) -> bool {
