@@ -269,3 +269,47 @@ fn a_snatched_rope_over_a_free_block_keeps_the_momentum() {
         assert!(off < 1e-2 * 10.0, "{shape}, friction {friction}: {off} kg m/s");
     }
 }
+
+/// A block swings on a rope that runs over its wheel, with friction and inertia: friction takes energy in every host step, and with it
+/// and the wheel that of all never grows; no step is cut short. The lesser of both tensions presses, which inertia may make that
+/// towards which the rope runs: friction had the other one, pushed, and made up to 500 J.
+///
+/// *Source.* Conservation of energy; the wheel has `m u'^2/2`.
+#[test]
+fn friction_of_a_wheel_with_inertia_takes_energy() {
+    for (friction, inertia, speed, mass) in [
+        (0.1, 0.5, 0.0, 2.0),
+        (0.3, 2.0, 3.0, 2.0),
+        (0.2, 0.5, 6.0, 20.0),
+        (0.3, 1.0, -4.0, 5.0),
+        (0.5, 0.2, 5.0, 1.0),
+        (0.2, 3.0, 8.0, 10.0),
+    ] {
+        let recording = record(&format!(
+            "duration = 1.0\n\
+            [[body]]\nname = \"block\"\nshape = {{ cuboid = [0.1, 0.1, 0.1] }}\nmass = {mass}\nposition = [0.4, -1.5, 0]\nvelocity = [{speed}, 0, 0]\n\
+            [[cable]]\nname = \"rope\"\npoints = [[-1, 0, 0], [0.4, -1.4, 0], [1, 0, 0]]\nelements = 16\n\
+            axial_stiffness = 20000.0\nbending_stiffness = 0.001\nmass_per_length = 0.02\n\
+            [[sheave]]\nname = \"wheel\"\ncable = \"rope\"\nat = 1.9798989873\nbody = \"block\"\nanchor = [0, 0.1, 0]\nfriction = {friction}\n\
+            inertia = {inertia}\n\
+            [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\nanchor = [-1, 0, 0]\n\
+            [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"world\"\nanchor = [1, 0, 0]\n\
+            [[probe]]\nname = \"energy\"\nenergy = \"all\"\n[[probe]]\nname = \"wheel\"\nsheave = \"wheel\"\n"
+        ));
+        let (energy, wheel) = (rows(&recording, "energy"), rows(&recording, "wheel"));
+        // t, ..., total; t, passed, rate, from_tension, to_tension, friction, lost
+        let total: Vec<_> = energy
+            .iter()
+            .zip(&wheel)
+            .map(|(row, wheel)| row[row.len() - 1] + 0.5 * inertia * wheel[2].powi(2))
+            .collect();
+        let size = 0.5 * mass * speed * speed + mass * 9.81 * 1.5;
+        let case = format!("friction {friction}, inertia {inertia}, {speed} m/s, {mass} kg");
+        assert!(wheel.windows(2).all(|pair| pair[1][6] >= pair[0][6]), "{case}: friction pushes");
+        let most = total.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        assert!(most < 1e-6 * size, "{case}: {most} J");
+        let with_friction = total.iter().zip(&wheel).map(|(total, wheel)| total + wheel[6]);
+        assert!(with_friction.skip(1).all(|sum| sum < total[0] + 1e-6 * size), "{case}");
+        assert!(!format!("{:?}", recording.summary.warnings).contains("CutShort"), "{case}");
+    }
+}

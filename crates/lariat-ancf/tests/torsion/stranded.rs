@@ -215,7 +215,11 @@ fn what_tension_that_makes_torque_does_not_go_with_is_refused() {
         assert!(matches!(error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("torque_per_tension"), "{error}");
     };
-    told(rope(Effects { torsion: torsion(), axial_law: Some(AxialLaw::Rope), ..Effects::default() }).build().unwrap_err());
+    told(
+        rope(Effects { torsion: torsion(), axial_law: Some(AxialLaw::Rope), ..Effects::default() })
+            .build()
+            .unwrap_err(),
+    );
     let curved = Some(RestShape::curved(0.5));
     rope(Effects { torsion: torsion(), rest_shape: curved, ..Effects::default() }).build().unwrap();
     let mut cable = rope(Effects { torsion: torsion(), ..Effects::default() }).build().unwrap();

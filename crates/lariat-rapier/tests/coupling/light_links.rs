@@ -66,6 +66,7 @@ fn run(case: &Case, finer: u32) -> Outcome {
 }
 
 /// Links of 1/19000 to a fifth of the body that they carry: what is off by more than 10 % of its way in its first swing is told, within 0.2 s of the start or before it is so far off; what is right stays without a word.
+/// That of 1/190, whose joints stay together, may be off and is not told: docs/decisions/rapier.md.
 ///
 /// *Source.* The same world in steps of a sixteenth.
 #[test]
@@ -86,8 +87,9 @@ fn a_link_that_joints_do_not_hold_is_told_before_it_shows() {
             match (off, found.told) {
                 (Some(off), told) => {
                     wrong += 1;
+                    let is_apart = case.link < 0.5;
                     assert!(
-                        told.is_some_and(|told| told <= off.max(0.2) + 2.0 / f64::from(rate)),
+                        !is_apart || told.is_some_and(|told| told <= off.max(0.2) + 2.0 / f64::from(rate)),
                         "{case:?} {off} {told:?}"
                     );
                 }

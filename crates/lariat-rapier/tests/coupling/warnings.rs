@@ -57,7 +57,7 @@ fn warnings_are_events_once_for_each_cable() {
         matches!(w, CableWarning::CoarseMesh { elements: 2, .. } | CableWarning::CoarseElement { .. })
     };
     assert!(of(cables[0]).iter().any(coarse), "{told:?}");
-    assert!(matches!(&of(cables[2])[..], [CableWarning::LargeStrain { .. }, ..]), "{told:?}");
+    assert!(of(cables[2]).iter().any(|w| matches!(w, CableWarning::LargeStrain { .. })), "{told:?}");
     assert!(matches!(&of(cables[3])[..], [CableWarning::Stubby { .. }, ..]), "{told:?}");
     for rope in cables {
         let mut kinds: Vec<_> = of(rope).into_iter().map(std::mem::discriminant).collect();

@@ -234,13 +234,15 @@ fn the_page_knows_the_columns_of_every_probe() {
     assert_eq!(probes, 8);
 }
 
+/// A page that is a link is not written through.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_while_the_page_is_written_leaves_the_summary() {
+fn a_page_that_is_a_link_is_in_the_way() {
     let folder = tempfile::tempdir().unwrap();
-    std::os::unix::fs::symlink("/dev/full", folder.path().join("view.html")).unwrap();
+    let link = folder.path().join("view.html");
+    std::os::unix::fs::symlink("/dev/full", &link).unwrap();
     let catenary = Scene::read(&scene("catenary"), &[], Purpose::Static).unwrap();
     let error = run::statics(&catenary, folder.path(), &mut run::Options::default()).unwrap_err();
-    assert!(matches!(error, Error::Write { .. }) && error.to_string().contains("view.html"), "{error}");
-    assert!(fs::read_to_string(folder.path().join("summary.json")).unwrap().contains("\"failed\": null"));
+    assert!(matches!(error, Error::InTheWay { .. }) && error.to_string().contains("view.html"), "{error}");
+    assert_eq!(fs::read_link(link).unwrap(), std::path::Path::new("/dev/full"));
 }

@@ -180,10 +180,8 @@ mod tests {
             let [a, b] = pulls;
             let present = 5.0 * any();
             let inertia = if i % 5 < 2 { 0.0 } else { 4.0 * any().abs() };
-            let force = Line {
-                value: b.value - a.value - inertia * present,
-                stiffness: b.stiffness - a.stiffness + inertia,
-            };
+            let force =
+                Line { value: b.value - a.value - inertia * present, stiffness: b.stiffness - a.stiffness + inertia };
             let grip = if i % 2 == 0 { 0.0 } else { 3.0 * any().abs() };
             let bound = Bound { limit: 3.0 * any().abs(), grip, lift: 0.3 * any().abs() };
             let at = graph.meet(present, force, &bound, &pulls);
