@@ -14,9 +14,9 @@
 //! ```
 //!
 //! a_1 is the acceleration at which the slip is zero in the mean of the step, so that F is P of one
-//! sign only where slips in the mean and at the end have it, and 0 where the slip turns back but not
-//! as far as it came: friction loses energy in every step, `F times the mean slip >= 0`, and what
-//! stands stays. Of a motor a_1 = a_0: it has energy to give.
+//! sign only where slips in the mean and at the end have it, and 0 where the slip turns back but
+//! not as far as it came: friction loses energy in every step, `F times the mean slip >= 0`, and
+//! what stands stays. Of a motor a_1 = a_0: it has energy to give.
 //!
 //! | law | F | P | a_0 | a_1 |
 //! |---|---|---|---|---|
@@ -155,8 +155,8 @@ impl Graph {
 mod tests {
     use super::*;
 
-    /// The point that is met is on the graph: of motors, and of sheaves with and without inertia, at
-    /// rest and running, with stops near and far. Friction loses energy.
+    /// The point that is met is on the graph: of motors, and of sheaves with and without inertia,
+    /// at rest and running, with stops near and far. Friction loses energy.
     ///
     /// *Source.* The graph itself: force, bound and stops at the point.
     #[test]
