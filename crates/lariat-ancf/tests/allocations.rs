@@ -149,8 +149,8 @@ fn a_warm_island_steps_without_allocating() {
 ///
 /// *Source.* The contract: a fleet of thousands stays in the cache. An allocator that counts.
 #[test]
-fn a_cable_of_sixteen_elements_takes_at_most_twenty_kilobytes() {
-    const LIMIT: i64 = 20_000;
+fn a_cable_of_sixteen_elements_takes_at_most_twenty_kibibytes() {
+    const LIMIT: i64 = 20 * 1024;
     let held_by = |run: &dyn Fn() -> Box<lariat_ancf::Cable>| {
         // the buffers of the thread
         drop(run());
