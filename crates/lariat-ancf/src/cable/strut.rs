@@ -74,7 +74,7 @@ impl Cable {
     /// before it bends the first.
     pub(crate) fn bend_struts(&mut self, before: impl FnOnce(&Cable)) {
         let bent_at = &mut self.snapshot.state.memory.bent_at;
-        bent_at.resize(bent_at.len().max(self.model.supports.len() + 1), 0.0);
+        bent_at.reserve((self.model.supports.len() + 1).saturating_sub(bent_at.len()));
         let (mut spans, mut before) = (Spans::default(), Some(before));
         while let Some(strut) = self.next_strut(&mut spans) {
             if let Some(before) = before.take() {
@@ -118,13 +118,16 @@ impl Cable {
             (spans.from, spans.number) = (last, number + 1);
             let Some(pushed) = self.pushed(first, last) else { continue };
             let Pushed { along, length, off, strain, force, .. } = pushed;
-            let before = self.snapshot.state.memory.bent_at[number];
+            let before = self.snapshot.state.memory.bent_at.get(number).copied().unwrap_or_default();
             let size = BEND;
             let is_loaded = strain > COMPRESSED.max(BENT_AGAIN * before)
                 && off <= UNBENT * size
                 && force > self.bears([first, last], length);
-            if is_loaded || strain <= 0.0 {
-                self.snapshot.state.memory.bent_at[number] = strain.max(0.0);
+            let bent = strain.max(0.0);
+            if (is_loaded || strain <= 0.0) && bent != before {
+                let bent_at = &mut self.snapshot.state.memory.bent_at;
+                bent_at.resize(bent_at.len().max(number + 1), 0.0);
+                bent_at[number] = bent;
             }
             if is_loaded {
                 return Some(Strut { along, nodes: [first, last], length, size: size * length });

@@ -155,7 +155,7 @@ fn thrown_cables_make_no_energy_and_none_is_refused() {
 #[test]
 fn thrown_cables_of_every_axial_law_make_no_energy() {
     let curve =
-        |axial: f64| AxialLaw::Curve(vec![[-0.02, 0.0], [0.03, 0.01 * axial], [0.1, 0.03 * axial], [0.3, 0.2 * axial]]);
+        |axial: f64| AxialLaw::Curve(vec![[-0.02, 0.0], [0.03, 0.01 * axial], [0.1, 0.03 * axial], [0.3, 0.1 * axial]]);
     let laws: [(&str, &dyn Fn(f64) -> AxialLaw); 3] =
         [("Hooke", &|_| AxialLaw::Hooke), ("rope", &|_| AxialLaw::Rope), ("curve", &curve)];
     for (name, law) in laws {

@@ -438,7 +438,7 @@ fn held_between(inner: EndSpin, turns: f64) -> Cable {
         .effects(Effects { torsion: Some(torsion), ..Effects::default() })
         .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
         .clamp(At::Start)
-        .clamp(At::Node(2))
+        .clamp(At::ArcLength(0.25))
         .clamp(At::End)
         .build()
         .unwrap()
