@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import lariat
-from lariat import errors
-from lariat.types import Fidelity
+import lariat_cables as lariat
+from lariat_cables import errors
+from lariat_cables.types import Fidelity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 

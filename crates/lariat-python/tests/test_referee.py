@@ -12,9 +12,9 @@ pytest.importorskip("cosseratbench")
 from cosseratbench import registry  # type: ignore[import-untyped, unused-ignore] # noqa: E402
 from cosseratbench.experiment import run  # type: ignore[import-untyped, unused-ignore] # noqa: E402
 
-from lariat.referee import LariatSolver  # noqa: E402
-from lariat.referee_catenary import FLEXIBLE, green_sag, lariat_sag  # noqa: E402
-from lariat.referee_page import at_nodes  # noqa: E402
+from lariat_cables.referee import LariatSolver  # noqa: E402
+from lariat_cables.referee_catenary import FLEXIBLE, green_sag, lariat_sag  # noqa: E402
+from lariat_cables.referee_page import at_nodes  # noqa: E402
 
 
 @pytest.mark.parametrize("friction", [0.15, 0.45])

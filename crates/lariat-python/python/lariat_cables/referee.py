@@ -19,8 +19,8 @@ from cosseratbench.scenario import End, EndCondition, Rod, Scenario  # type: ign
 from cosseratbench.solver import Diverged  # type: ignore[import-untyped, unused-ignore]
 from cosseratbench.trajectory import Trajectory  # type: ignore[import-untyped, unused-ignore]
 
-import lariat
-from lariat.types import Array, Fidelity, Place
+import lariat_cables as lariat
+from lariat_cables.types import Array, Fidelity, Place
 
 ENDS: tuple[tuple[End, Place], ...] = ((End.START, "start"), (End.END, "end"))
 REST = 1e-4
