@@ -140,7 +140,7 @@ pub struct Places(pub Vec<At>);
 impl<'a, 'py> FromPyObject<'a, 'py> for Places {
     type Error = PyErr;
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if object.is_instance_of::<PyString>() || !object.hasattr("__iter__")? {
+        if object.is_instance_of::<PyString>() || object.try_iter().is_err() {
             return Ok(Places(vec![Place::extract(object)?.0]));
         }
         let places = object.try_iter()?.map(|item| Ok(item?.extract::<Place>()?.0));
