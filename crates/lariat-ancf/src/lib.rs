@@ -33,6 +33,7 @@
 //! | [`warning`] | what a cable says about its own mesh, steps, law and sizes |
 //! | [`study`] | runs to a given error: mesh and tolerance chosen, and the error proven |
 //! | [`coupling`] | what couplings to engines need of a cable, and its matrices |
+//! | [`smooth`] | curves through rows of time and value, of paths and motors |
 //! | [`island`] | cables and rigid bodies pinned together, as one system, for couplings to physics engines |
 //!
 //! Public for tests and benchmarks of the numerics, and for the matrices that [`Cable`] returns; no
@@ -66,8 +67,10 @@ mod reel;
 mod rows;
 mod rule;
 mod scales;
+pub mod seal;
 mod section;
 mod simd;
+pub mod smooth;
 mod state;
 mod statics;
 mod step;

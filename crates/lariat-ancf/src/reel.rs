@@ -2,6 +2,7 @@
 
 use crate::element::side::Side;
 use crate::error::{Error, require};
+use crate::scales::reel::{ARRIVED, SHORTFALL};
 use crate::section::Element;
 use serde::{Deserialize, Serialize};
 
@@ -14,13 +15,20 @@ pub struct Reel {
     /// lets it, with any method; a row within it counts from the next host step on, or earlier.
     /// Default: no rows, at rest.
     pub rate: Vec<[f64; 2]>,
+    /// Length of cable in m that is out when the reel stops: it comes there with the rates of the
+    /// table, whatever their sign, and within the acceleration. Not at a sheave or a drum. Default:
+    /// none, the rates are followed.
+    pub to_length: Option<f64>,
     /// Largest acceleration of the rate in m/s^2. Default 2: a jump of the rate by dv is one of the
-    /// tension by dv sqrt(EA rho A). With `max_force` it is that of the rate that the motor is
-    /// commanded; a reel that slipped returns to it as fast as the force lets it.
+    /// tension by dv sqrt(EA rho A). What a table asks for in less time than that takes is not paid
+    /// out, which the warning `slow_reel` tells. With `max_force` it is that of the rate that the
+    /// motor is commanded; a reel that slipped returns to it as fast as the force lets it.
     pub acceleration: f64,
     /// Largest length of cable in m that can be out: the reel stops there, as softly as
-    /// `acceleration` says, whatever `max_force` is. On a body that moves freely, what is not out
-    /// rides with it, so it must be given there. Default: no limit.
+    /// `acceleration` says. One that slips, a free spool or a brake, runs on to the end and stops
+    /// at once, whatever `max_force` is: the stretch of the rope alone brakes what hangs on it. On
+    /// a body that moves freely, what is not out rides with it, so it must be given there. Default:
+    /// no limit.
     pub stock: Option<f64>,
     /// Largest force of the motor in N: a clutch between the reel and a shaft that turns at the
     /// commanded rate. The reel slips where the cable pulls more, and is pulled back by this force
@@ -57,7 +65,15 @@ pub enum Feed {
 
 impl Default for Reel {
     fn default() -> Self {
-        Reel { rate: Vec::new(), acceleration: 2.0, stock: None, max_force: None, inertia: 0.0, feed: Feed::Drum }
+        Reel {
+            rate: Vec::new(),
+            to_length: None,
+            acceleration: 2.0,
+            stock: None,
+            max_force: None,
+            inertia: 0.0,
+            feed: Feed::Drum,
+        }
     }
 }
 
@@ -100,6 +116,11 @@ impl Reel {
     /// Refuses numbers that make no reel.
     pub(crate) fn check(&self) -> Result<(), Error> {
         require("acceleration of a reel (m/s^2)", self.acceleration, self.acceleration > 0.0, "> 0")?;
+        if let Some(length) = self.to_length {
+            require("length that a reel comes to (m)", length, length > 0.0, "> 0")?;
+            let own = u8::from(!self.needs_island());
+            require("lengths that a sheave or drum may come to", 1.0, own == 1, "0: material runs as it is pulled")?;
+        }
         if let Some(stock) = self.stock {
             require("stock of a reel (m)", stock, stock > 0.0, "> 0")?;
         }
@@ -119,10 +140,38 @@ impl Reel {
         Ok(())
     }
 
-    /// Returns the rate in m/s that the table asks for at a time in s.
-    pub(crate) fn asked(&self, time: f64) -> f64 {
+    /// Returns the rate in m/s that is asked for at a time in s; `way` is how much in m the length
+    /// that it is to come to is ahead, if there is one.
+    pub(crate) fn asked(&self, time: f64, way: Option<f64>) -> f64 {
         let rows = self.rate.partition_point(|row| row[0] <= time);
-        if rows == 0 { 0.0 } else { self.rate[rows - 1][1] }
+        let rate = if rows == 0 { 0.0 } else { self.rate[rows - 1][1] };
+        way.map_or(rate, |way| if way.abs() > ARRIVED { rate.abs().copysign(way) } else { 0.0 })
+    }
+
+    /// Returns the lengths in m that the table asks for and that its acceleration gives, from time
+    /// 0 on until the rate is that of the last row, and the largest rate in m/s that is not
+    /// reached; `None` where they are the same.
+    ///
+    /// A rate that is reached late is left late: what a ramp lacks in the beginning the next one
+    /// adds. They differ where a row ends before its rate is reached.
+    pub(crate) fn shortfall(&self) -> Option<[f64; 3]> {
+        let (mut given, mut asked, mut paid, mut way) = (0.0_f64, 0.0, 0.0, 0.0);
+        let mut missed: Option<f64> = None;
+        for (i, &[time, rate]) in self.rate.iter().enumerate().filter(|_| self.to_length.is_none()) {
+            let next = self.rate.get(i + 1).map(|row| row[0].max(0.0));
+            let ramp = (rate - given).abs() / self.acceleration;
+            let duration = next.map_or(ramp, |next| next - time.max(0.0));
+            if next.is_some() && duration < ramp * (1.0 - crate::scales::SAME) && duration > 0.0 {
+                missed = Some(missed.map_or(rate, |most| if rate.abs() > most.abs() { rate } else { most }));
+            }
+            let rising = duration.min(ramp);
+            let reached = if ramp > 0.0 { given + rising / ramp * (rate - given) } else { rate };
+            asked += rate * duration;
+            way += rate.abs() * duration;
+            paid += 0.5 * (given + reached) * rising + rate * (duration - rising);
+            given = reached;
+        }
+        missed.filter(|_| (asked - paid).abs() > SHORTFALL * way).map(|rate| [asked, paid, rate])
     }
 }
 

@@ -17,6 +17,7 @@
 use crate::error::{Error, require};
 use crate::integrate::Stage;
 use crate::scales::cable::AFTER;
+use crate::smooth;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -51,9 +52,8 @@ impl Motion {
         (x0, v0): (Vector3<f64>, Vector3<f64>),
         (x1, v1): (Vector3<f64>, Vector3<f64>),
     ) -> Self {
-        let h = duration;
-        let mean = (x1 - x0) / h;
-        let coefficients = [x0, v0, (3.0 * mean - 2.0 * v0 - v1) / h, (v0 + v1 - 2.0 * mean) / (h * h)];
+        let [c1, c2, c3] = smooth::hermite(duration, (x1 - x0) / duration, [v0, v1]);
+        let coefficients = [x0, c1, c2, c3];
         Motion { start, coefficients, end: None }
     }
 

@@ -27,7 +27,7 @@ fn falls(rope: &mut Cable, host_steps: usize) -> bool {
 #[test]
 fn a_straight_rope_under_compression_falls() {
     for fidelity in [Fidelity::Game, Fidelity::Engineering] {
-        for elements in [1, 10, 40] {
+        for elements in [1, 10, 40, 100] {
             let mut rope = standing(elements, -196.0, 0.5).integrator(fidelity).build().unwrap();
             assert!(falls(&mut rope, 60), "{fidelity:?} {elements}: {:?}", common::tip(&rope));
         }
@@ -44,7 +44,8 @@ fn a_straight_rope_under_compression_falls() {
 #[test]
 fn a_cable_that_stands_by_itself_is_left_alone() {
     for (force, bending) in [(100.0, 0.5), (-0.02, 0.5)] {
-        let mut rod = standing(8, force, bending).gravity(Vector3::zeros()).integrator(Fidelity::Game).build().unwrap();
+        let rod = standing(8, force, bending).clamp(At::Start).gravity(Vector3::zeros());
+        let mut rod = rod.integrator(Fidelity::Game).build().unwrap();
         (0..30).for_each(|_| rod.step(1.0 / 60.0).unwrap());
         assert!(rod.positions().chunks_exact(3).all(|r| r[0] == 0.0 && r[2] == 0.0));
     }
@@ -84,4 +85,60 @@ fn a_strut_that_stands_is_bent_once() {
     let mut rod = build(90.0);
     run(&mut rod, 240);
     assert!(aside(&rod) > 0.1, "{:e}", aside(&rod));
+}
+
+/// A rope that is held between its ends falls where it stands, whatever holds it below; a stiff one that is pinned at its foot alone falls over.
+///
+/// *Source.* Greenhill: a column bears its weight up to w l^3/EI = 7.84 above a clamp, less above a pin, so that each of these falls. One that
+/// turns about its foot bears nothing.
+#[test]
+fn each_free_span_falls_by_itself() {
+    let mut random = common::Random::new(45);
+    let mut between = |low: f64, high: f64| low * (high / low).powf(0.5 + 0.5 * random.next());
+    for case in 0..24 {
+        let length = between(2.0, 6.0);
+        let top = length * between(0.3, 0.7);
+        let section = Section::from_stiffness(1.6e6, 1.4 * top.powi(3) / 7.84 / between(3.0, 300.0), 0.14).unwrap();
+        let points = [Vector3::zeros(), length * Vector3::y()];
+        let builder = Cable::builder().points(points).section(section).elements([10, 25, 40][case % 3]);
+        let builder = builder.damping(Damping { axial: 2e-4, bending: 0.01 });
+        let builder = builder.integrator([Fidelity::Game, Fidelity::Engineering][usize::from(case % 6 == 5)]);
+        let highest = length - top;
+        let builder = match case % 4 {
+            0 => builder.fix(At::ArcLength(highest)),
+            1 => builder.clamp(At::ArcLength(highest)),
+            2 => builder.fix(At::Start).fix(At::ArcLength(highest)),
+            _ => builder.fix(At::ArcLength(0.4 * highest)).clamp(At::Start).fix(At::ArcLength(highest)),
+        };
+        let mut rope = builder.build().unwrap();
+        let host_steps = (60.0 * 30.0 * (top / 9.81).sqrt()) as usize;
+        let falls = (0..host_steps).any(|_| {
+            rope.step(1.0 / 60.0).unwrap();
+            common::tip(&rope).y < length - 0.3 * top
+        });
+        assert!(falls, "case {case}: {length} m, {top} m above, {section:?}: {:?}", common::tip(&rope));
+    }
+    let mut rod = standing(8, 0.0, 50.0).integrator(Fidelity::Game).build().unwrap();
+    assert!(falls(&mut rod, 900), "{:?}", common::tip(&rod));
+}
+
+/// Between supports, too: a load amid a line that is drawn straight down pushes its lower half, which buckles, and pulls the upper one, which does not.
+///
+/// *Source.* Each half carries half of the load, 50 N, and bears pi^2 EI/l^2 = 0.11 N. What is off the line is of the size l sqrt(strain), 0.01 m.
+#[test]
+fn the_pushed_half_of_a_line_between_supports_buckles() {
+    let section = Section::from_stiffness(1e5, 0.1, 0.1).unwrap();
+    for elements in [8, 20, 100] {
+        let builder =
+            Cable::builder().points([Vector3::zeros(), -6.0 * Vector3::y()]).section(section).elements(elements);
+        let load = PointLoad::force(3.0, Vector3::new(0.0, -100.0, 0.0));
+        let builder =
+            builder.fix(At::Start).fix(At::ArcLength(3.0)).fix(At::End).load(PointLoad::force(4.5, load.force));
+        let builder = builder.damping(Damping { axial: 1e-3, bending: 0.02 }).node_at(4.5).gravity(Vector3::zeros());
+        let mut line = builder.integrator(Fidelity::Game).build().unwrap();
+        (0..60).for_each(|_| line.step(1.0 / 60.0).unwrap());
+        let aside = |s: f64| line.sample(s).unwrap().position.x.hypot(line.sample(s).unwrap().position.z);
+        let lower = (30..60).map(|k| aside(0.1 * f64::from(k))).fold(0.0, f64::max);
+        assert!(lower > 2e-3, "{elements}: {lower:e}");
+    }
 }

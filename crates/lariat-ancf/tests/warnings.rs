@@ -5,7 +5,10 @@ mod common;
 use common::Random;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::fold;
-use lariat_ancf::{At, Cable, CableBuilder, Integrator, Level, Method, Section, StepControl, Vector3, Warning};
+use lariat_ancf::{
+    At, AxialLaw, Cable, CableBuilder, Damping, Effects, Integrator, Level, Method, PointLoad, RopeMaterial, Section,
+    StepControl, Vector3, Warning,
+};
 use std::f64::consts::PI;
 
 const GRAVITY: f64 = 9.81;
@@ -142,6 +145,63 @@ fn sizes_in_other_units_are_told() {
     assert_eq!(told(Section::wire_rope(0.02).unwrap(), 5.0), []);
 }
 
+/// Green's law is told where its elongations are more than 2 % below Hooke's, with by how much, in statics too; a law that was given is meant, and
+/// ropes by name have Hooke's.
+///
+/// *Source.* Hooke: e = T/EA.
+#[test]
+fn the_default_law_is_told_where_it_is_off_hookes() {
+    let (axial, length) = (1e5, 10.0);
+    let hung = |share: f64, law: Option<AxialLaw>| {
+        let line = Cable::builder().points([Vector3::zeros(), -Vector3::y() * length]).gravity(Vector3::zeros());
+        let line = line.section(Section::from_stiffness(axial, 0.0, 0.1).unwrap()).fix(At::Start);
+        let force = PointLoad::force(length, [0.0, -share * axial, 0.0]);
+        let mut line = line.load(force).effects(Effects { axial_law: law, ..Effects::default() }).build().unwrap();
+        line.equilibrium().unwrap();
+        let elongation = -line.sample(length).unwrap().position.y / length - 1.0;
+        (elongation, line.warnings())
+    };
+    for share in [0.001, 0.005, 0.01, 0.0125, 0.015, 0.02, 0.0441, 0.06, 0.2] {
+        let (elongation, warnings) = hung(share, None);
+        let less = 1.0 - elongation / share;
+        println!("{share}: {elongation}, {:.2} % less; {warnings:?}", 100.0 * less);
+        match &warnings[..] {
+            [] => assert!(less < 0.0201, "{share}"),
+            [Warning::GreenStrain { .. }] => {
+                assert!(less > 0.0199 && share < 0.05, "{share}");
+                let text = format!("elongates it by {:.1} % less than Hooke's", 100.0 * less);
+                assert!(warnings[0].to_string().contains(&text), "{}", warnings[0]);
+            }
+            [Warning::LargeStrain { .. }] => assert!(share > 0.05, "{share}"),
+            other => panic!("{share}: {other:?}"),
+        }
+        let (elongation, warnings) = hung(share, Some(AxialLaw::Hooke));
+        assert!((elongation / share - 1.0).abs() < 1e-6 && warnings.is_empty(), "{share} {elongation} {warnings:?}");
+    }
+    let rope = Cable::builder().points([Vector3::zeros(), -Vector3::y() * length]).fix(At::Start);
+    let rope = rope.rope(RopeMaterial::Nylon, 0.02).unwrap().gravity(Vector3::zeros());
+    let force = 0.03 * RopeMaterial::Nylon.section(0.02).unwrap().axial_stiffness;
+    let mut rope = rope.load(PointLoad::force(length, [0.0, -force, 0.0])).build().unwrap();
+    rope.equilibrium().unwrap();
+    let elongation = -rope.sample(length).unwrap().position.y / length - 1.0;
+    assert!((elongation / 0.03 - 1.0).abs() < 1e-6 && rope.warnings().is_empty(), "{elongation}");
+}
+
+/// A length in percent, damping in percent, and elements that are thicker than long are told by the cable itself.
+#[test]
+fn measures_that_were_not_meant_are_told() {
+    let told = |length: f64, elements: usize, axial: f64| {
+        let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * 2.0]).length(length).elements(elements);
+        let line = line.section(Section::round(0.02, 1e8, 1000.0).unwrap()).fix(At::Start).fix(At::End);
+        line.damping(Damping { axial, bending: 0.0 }).build().unwrap().warnings()
+    };
+    assert_eq!(told(2.0, 90, 0.9), []);
+    assert!(matches!(&told(2.0, 110, 0.9)[..], [Warning::ThickElements { .. }]));
+    assert!(matches!(&told(2.0, 10, 2.0)[..], [Warning::SlowStretch { axial_s: 2.0, .. }]));
+    let slack = |warning: &Warning| matches!(warning, Warning::MuchSlack { drawn_m: 2.0, .. });
+    assert!(told(102.0, 40, 0.1).iter().any(slack) && !told(5.9, 40, 0.1).iter().any(slack));
+}
+
 /// Random sections: none of those that exist is doubted (0.5 mm to 1.4 m thick, 1e5 to 1e12 Pa, 12 to 1e5 times as long as thick), all that
 /// were given in other units are: millimetres read as metres, GPa read as Pa, MPa of metals read as Pa, and rods that are no cables.
 ///
@@ -246,9 +306,14 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::CoarseKink { cable: cable(), arc_length_m: 0.5, error_m: 0.1, elements, enough: Default::default() },
         Warning::LongSteps { cable: cable(), time_s, error_m: 0.1, step_s, enough_s: 0.001 },
         Warning::LargeStrain { cable: cable(), time_s, tension_n: 1.0, axial_stiffness_n: 2.0 },
+        Warning::GreenStrain { cable: cable(), time_s, tension_n: 1.0, axial_stiffness_n: 40.0 },
+        Warning::MuchSlack { cable: cable(), length_m: 4.0, drawn_m: 1.0 },
+        Warning::SlowStretch { cable: cable(), axial_s: 2.0 },
+        Warning::ThickElements { cable: cable(), element_m: 0.01, diameter_m: 0.02 },
         Warning::EnergyMade { cable: cable(), time_s, made_j: 1.0, scale_j: 2.0, discrete_gradient: false },
         Warning::EnergyLost { cable: cable(), time_s, lost_j: 1.0, scale_j: 2.0 },
         Warning::FastReel { cable: cable(), time_s, ratio: 0.5 },
+        Warning::SlowReel { cable: cable(), asked_m: 5.0, given_m: 2.0, rate_m_s: 5.0, acceleration_m_s2: 2.0 },
         Warning::UnseenLoad { cable: cable(), time_s, share: 0.9, reached: 1.1, step_s },
         Warning::RoundedEnds { cable: cable(), time_s, noise_n: 1.0, tension_n: 2.0 },
         Warning::PassedThrough { cable: cable(), steps },
@@ -261,6 +326,9 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::IdleTorsion { cable: cable() },
         Warning::CoarseTwist { cable: cable(), ratio: 2.0, elements, enough },
         Warning::TwistSlips { cable: cable(), slips: 2 },
+        Warning::KinksThroughItself { cable: cable(), torque_nm: 1.0, share: 1.5 },
+        Warning::MomentAlong { cable: cable(), at_m: 0.5, part_nm: 1.0, time_s },
+        Warning::StiffTorsion { cable: cable(), ratio: 2.0 },
         Warning::Stubby { cable: cable(), ratio: 2.0, length_m: 1.0, diameter_m: 0.5 },
         Warning::Thick { cable: cable(), diameter_m: 2.0 },
         Warning::LightMaterial { cable: cable(), density_kg_m3: 1.0, wave_speed_m_s: 1e5 },

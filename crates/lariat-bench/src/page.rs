@@ -142,14 +142,37 @@ pub fn write_around(path: &Path, text: &str, marks: [&str; 2]) -> Result<(), Err
     write(path, &kept.map_or(text.to_string(), |kept| format!("{}\n\n{kept}\n", text.trim_end())))
 }
 
-/// Creates a folder, and checks that it can be written before hours of measurements end in an
-/// error.
+/// Creates a folder for a page of a title, and checks that it can be written before hours of
+/// measurements end in an error. A folder with that page has the tables and figures of the last
+/// one, which are replaced; one without it may hold none.
 ///
 /// # Errors
-/// [`Error::Output`].
-pub fn create_folder(folder: &Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|source| Error::Output { path: folder.to_path_buf(), source })?;
+/// [`lariat_scene::Error::InTheWay`] for another page of the name, or a table or figure that
+/// belongs to none; [`Error::Output`].
+pub fn create_folder(folder: &Path, page: &str, title: &str) -> Result<(), Error> {
+    let fail = |source| Error::Output { path: folder.to_path_buf(), source };
+    std::fs::create_dir_all(folder).map_err(fail)?;
+    if !has_title(&folder.join(page), title)? {
+        for entry in std::fs::read_dir(folder).map_err(fail)? {
+            let path = entry.map_err(fail)?.path();
+            if path.extension().is_some_and(|kind| kind == "csv" || kind == "svg") {
+                return Err(lariat_scene::Error::InTheWay { path }.into());
+            }
+        }
+    }
     let trial = folder.join(".writable");
     write(&trial, "")?;
     std::fs::remove_file(&trial).map_err(|source| Error::Output { path: trial, source })
+}
+
+/// Returns whether there is a page of this title; false if there is none.
+///
+/// # Errors
+/// [`lariat_scene::Error::InTheWay`] for a file that is not such a page.
+pub fn has_title(path: &Path, title: &str) -> Result<bool, Error> {
+    match std::fs::read_to_string(path) {
+        Ok(text) if text.is_empty() || text.starts_with(&format!("# {title}\n")) => Ok(true),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(false),
+        _ => Err(lariat_scene::Error::InTheWay { path: path.to_path_buf() }.into()),
+    }
 }

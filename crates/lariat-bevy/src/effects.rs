@@ -212,6 +212,11 @@ impl Contact {
 }
 
 impl AxialLaw {
+    /// EA times the Green strain, as without a law: where that is meant.
+    pub fn green() -> Self {
+        AxialLaw(lariat_ancf::AxialLaw::Green)
+    }
+
     /// EA times the engineering strain.
     pub fn hooke() -> Self {
         AxialLaw(lariat_ancf::AxialLaw::Hooke)

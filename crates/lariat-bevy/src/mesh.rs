@@ -6,12 +6,15 @@
 //! of a ring does not twist about the tangent: from ring to ring it is reflected twice, in the plane
 //! between the points and in that between the tangents (Wang, Juettler, Zheng & Liu 2008,
 //! "Computation of rotation minimizing frames", ACM Trans. Graph. 27, 2; order 4 in the distance of
-//! the rings). u runs round the cable, v is the arc length over the length of the texture.
+//! the rings). Where a cable with torsion is held against spin on both sides, the frame is that of a
+//! [line that is painted](Cable::stripe) along it, so that the texture shows its twist. u runs round
+//! the cable, v is the arc length over the length of the texture.
 //!
 //! # Validity
 //!
-//! For display. A curve that bends to less than the radius cuts through its own surface. The twist
-//! of a cable with torsion is not drawn.
+//! For display. A curve that bends to less than the radius cuts through its own surface. The twist is
+//! that of the last step, also where positions are between two steps; from ring to ring it is below
+//! half a turn.
 
 use crate::cables::Cables;
 use bevy_ecs::change_detection::DetectChangesMut;
@@ -62,6 +65,21 @@ impl RopeMesh {
         self
     }
 
+    /// Returns by ring the direction of a line that is painted along a cable; empty without torsion.
+    fn stripe(&self, cable: &Cable) -> Vec<Option<Vector3<f64>>> {
+        if cable.effects().torsion.is_none() {
+            return Vec::new();
+        }
+        let mut places = Vec::with_capacity(cable.elements().len() * self.rings + 1);
+        let mut from = 0.0;
+        for element in cable.elements() {
+            places.extend((0..self.rings).map(|k| from + k as f64 / self.rings as f64 * element.length));
+            from += element.length;
+        }
+        places.push(cable.length());
+        cable.stripe(&places).unwrap_or_default()
+    }
+
     /// Colours vertices by the tension: white up to `low`, red from `high` (N) on.
     pub fn coloured_by_tension(mut self, low: f64, high: f64) -> Self {
         self.tensions = Some([low, high]);
@@ -86,9 +104,11 @@ pub struct RopeVertices {
     pub indices: Vec<u32>,
     /// Nodal coordinates of which these are the vertices, and the settings.
     drawn: (Vec<f64>, Option<RopeMesh>),
+    /// By ring the direction of the painted line; empty without torsion.
+    stripe: Vec<Option<Vector3<f64>>>,
 }
 
-/// A point of the curve with a frame that does not twist.
+/// A point of the curve with a frame that does not twist but with the cable.
 #[derive(Clone, Copy)]
 struct Ring {
     centre: Vector3<f64>,
@@ -99,11 +119,14 @@ struct Ring {
 impl RopeVertices {
     /// Draws a cable at nodal coordinates, which are its own or
     /// [between two steps](crate::Interpolate::positions). Nothing is allocated unless there are more
-    /// vertices than before. Returns whether anything changed.
+    /// vertices than before, or torsion. Returns whether anything changed.
     pub fn draw(&mut self, mesh: &RopeMesh, cable: &Cable, positions: &[f64]) -> bool {
-        if self.drawn.0 == positions && self.drawn.1.as_ref() == Some(mesh) {
+        // a straight cable is twisted in place
+        let stripe = mesh.stripe(cable);
+        if self.drawn.0 == positions && self.drawn.1.as_ref() == Some(mesh) && self.stripe == stripe {
             return false;
         }
+        self.stripe = stripe;
         let fewer = self.drawn.0.len() != positions.len() || self.drawn.1.as_ref() != Some(mesh);
         self.drawn.0.clear();
         self.drawn.0.extend_from_slice(positions);
@@ -117,7 +140,8 @@ impl RopeVertices {
             let last = e + 1 == cable.elements().len();
             for k in 0..mesh.rings + usize::from(last) {
                 let xi = k as f64 / mesh.rings as f64;
-                let ring = Ring::at(positions, e, xi, element.length, before);
+                let mut ring = Ring::at(positions, e, xi, element.length, before);
+                ring.turn_to(self.stripe.get(count as usize).copied().flatten());
                 let s = from + xi * element.length;
                 let colour = mesh.tensions.map(|tensions| colour(cable, s, tensions));
                 if before.is_none() {
@@ -201,6 +225,12 @@ impl Ring {
         let across = turned - tangent * turned.dot(&tangent);
         let across = across.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| any_across(&tangent));
         Ring { centre, tangent, across }
+    }
+
+    /// Turns the frame to a direction, if there is one across the curve.
+    fn turn_to(&mut self, direction: Option<Vector3<f64>>) {
+        let across = direction.map(|d| d - self.tangent * d.dot(&self.tangent));
+        self.across = across.and_then(|d| d.try_normalize(f64::MIN_POSITIVE)).unwrap_or(self.across);
     }
 
     /// Returns the outward normal at a share of the way round.

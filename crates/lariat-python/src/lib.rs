@@ -40,8 +40,8 @@ mod _lariat {
     use crate::integrator::{Integrator, integrators, recommended_elements, rope_kinds};
     #[pymodule_export]
     use crate::scene::{
-        Recorded, Stop, import_mjcf, run_command, run_scene, scene_keys, scene_rules, sweep_append, sweep_check,
-        sweep_done, sweep_local, sweep_row, sweep_run, sweep_table, to_toml,
+        Recorded, Stop, import_mjcf, run_command, run_scene, save_file, save_files, scene_keys, scene_rules,
+        sweep_append, sweep_check, sweep_done, sweep_local, sweep_row, sweep_run, sweep_table, to_toml,
     };
     #[pymodule_export]
     use crate::section::Section;

@@ -4,7 +4,9 @@ use crate::convert::{data, object, table};
 use crate::error::{Raise, raise};
 use lariat_ancf::study::{InvalidTarget, Target};
 use lariat_scene::command;
+use lariat_scene::folder;
 use lariat_scene::run::{self, Options, Recording};
+use lariat_scene::signed::{self, Comment};
 use lariat_scene::sweep::{self, Row, Source, Store};
 use lariat_scene::{Error, Purpose, Scene};
 use pyo3::exceptions::PyValueError;
@@ -99,6 +101,19 @@ pub fn scene_keys(path: Option<&str>) -> PyResult<String> {
 #[pyfunction]
 pub fn scene_rules() -> String {
     command::rules()
+}
+
+/// Writes files, by their names, to a folder, in place of those of the last run.
+#[pyfunction]
+pub fn save_files(py: Python<'_>, folder: PathBuf, files: Vec<(String, String)>) -> PyResult<()> {
+    py.detach(|| folder::save(&folder, &files)).map_err(raise)
+}
+
+/// Writes a picture (`svg`) or a motion (`usd`) to a file, in place of one that was written so and that nobody changed.
+#[pyfunction]
+pub fn save_file(py: Python<'_>, path: PathBuf, text: &str, format: &str) -> PyResult<()> {
+    let comment = if format == "svg" { Comment::XML } else { Comment::HASH };
+    py.detach(|| signed::write(&path, text, comment)).map_err(raise)
 }
 
 /// Runs the `lariat` command, and returns its exit code.

@@ -11,6 +11,7 @@ import pytest
 
 import lariat_cables as lariat
 from lariat_cables import errors
+from lariat_cables.exchange import EndMotion, Exchange
 from lariat_cables.types import Fidelity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
@@ -140,6 +141,74 @@ def test_impedance_of_long_steps_is_the_stiffness_of_a_beam() -> None:
         assert z[about, about] == pytest.approx(4 * EI / LENGTH, rel=1e-4)
         assert z[across, about] == pytest.approx(sign * 6 * EI / LENGTH**2, rel=1e-4)
     assert z[3] == pytest.approx(np.zeros(6), abs=1e-9)
+
+
+def twisted(turns: float, points: list[list[float]], **arguments: object) -> lariat.Cable:
+    """A cable between two clamps, GJ = 0.02 N m^2, in equilibrium."""
+    section, effects = lariat.Section(1e4, 0.03, 0.1), lariat.Torsion(0.02, initial_twist=turns)
+    cable = lariat.Cable(points, section, elements=8, fidelity="game", effects=effects, clamp=["start", "end"], **arguments)  # type: ignore[arg-type]
+    cable.equilibrium()
+    return cable
+
+
+def test_impedance_about_the_axis_is_the_torsional_stiffness() -> None:
+    """Z/h^2 about the axis of a straight cable for long steps: GJ/L, between both ends the opposite; of one that is bent and twisted the
+    derivative of the torque of its equilibrium by the turns of an end, by differences."""
+    z = held(twisted(0.0, [[0, 0, 0], [1, 0, 0]], gravity=[0, 0, 0])).impedance(1e3) / 1e6
+    assert [z[3, 3], z[3, 9], z[9, 9]] == pytest.approx([0.02, -0.02, 0.02], rel=1e-9)
+    bent, d = [[0, 0, 0], [0.5, -0.2, 0.1], [1, 0, 0]], 1e-3
+    cable = twisted(0.6, bent)
+    axes = cable.slopes[[0, -1]] / np.linalg.norm(cable.slopes[[0, -1]], axis=1)[:, None]
+    z = held(cable).impedance(1e4) / 1e8
+    torques = [twisted(0.6 + sign * d, bent).torsion()[0].torque for sign in (-1, 1)]
+    exact = (torques[1] - torques[0]) / (2 * d * 2 * np.pi)
+    assert exact < 0.9 * 0.02 / cable.length  # the curve gives way
+    assert axes[1] @ z[9:, 9:] @ axes[1] == pytest.approx(exact, rel=1e-4)
+    assert axes[0] @ z[3:6, 9:] @ axes[1] == pytest.approx(-exact, rel=1e-4)
+
+
+def held(cable: lariat.Cable) -> lariat.CoSimulation:
+    """Both ends clamped to bodies of the host."""
+    coupling = lariat.CoSimulation(cable)
+    for at, node in (("start", 0), ("end", -1)):
+        coupling.attach(at, cable.positions[node], clamp=True)  # type: ignore[arg-type]
+    return coupling
+
+
+def test_a_disc_of_a_host_is_a_torsional_pendulum() -> None:
+    """A disc that the host turns at the end of a straight cable: sqrt(GJ/(L I)), less (w h)^2/12 = 3e-5 by the trapezoidal rule of the host. The
+    linear prediction is right: a step takes two trials."""
+    inertia, dt, angle, spin, most = 4e-3, 1 / 120, 0.5, 0.0, 0
+    section, effects = lariat.Section(1e4, 0.03, 0.1), lariat.Torsion(0.02)
+    cable = lariat.Cable([[0, 0, 0], [1, 0, 0]], section, elements=4, fidelity="game", effects=effects, clamp="start", gravity=[0, 0, 0])
+    coupling = lariat.CoSimulation(cable)
+    coupling.attach("end", [1, 0, 0], clamp=True)
+    exchange = Exchange(coupling)
+
+    def at(turned: float) -> list[list[float]]:
+        return [[np.sin(turned / 2), 0.0, 0.0, np.cos(turned / 2)]]
+
+    # the host turns the disc out, and lets it go at rest
+    coupling.step(0.5, [[1, 0, 0]], at(angle))
+    coupling.step(dt, [[1, 0, 0]], at(angle))
+    assert cable.torsion()[0].twist == pytest.approx(angle, rel=1e-9)
+    passages = []
+    for k in range(1200):
+
+        def move(_: np.ndarray, moment: np.ndarray) -> EndMotion:
+            after = spin + dt * moment[0, 0] / inertia
+            turned = angle + 0.5 * dt * (spin + after)
+            return EndMotion([[1, 0, 0]], at(turned), [[0, 0, 0]], [[after, 0, 0]])
+
+        done = exchange.step(dt, move)
+        before, most = angle, max(most, done.trials)
+        spin = float(np.asarray(done.motion.angular_velocities)[0, 0])
+        angle = 2.0 * float(np.arcsin(np.asarray(done.motion.rotations)[0, 0]))
+        if before * angle < 0.0:
+            passages.append(dt * (k + before / (before - angle)))
+    own = np.pi * (len(passages) - 1) / (passages[-1] - passages[0])
+    assert own == pytest.approx(np.sqrt(0.02 / inertia), rel=1e-4)
+    assert most <= 3
 
 
 def test_impedance_of_short_steps_is_inertia() -> None:

@@ -8,7 +8,7 @@ import pickle
 import pytest
 
 import lariat_cables as lariat
-from lariat_cables import Motor, Reel, Torsion, errors
+from lariat_cables import Motor, MotorCourse, Reel, Torsion, errors
 
 SECTION = lariat.Section(1e4, 0.03, 0.1, diameter=0.01)
 STIFFNESS = 0.02
@@ -36,6 +36,18 @@ def test_a_motor_twists_and_a_swivel_does_not_hold() -> None:
     swivel = straight(Torsion(STIFFNESS, initial_twist=0.25, end="swivel"), clamp=["start", "end"])
     assert swivel.torsion() == [] and any("torsion" in text or "spin" in text for text in swivel.warnings())
     assert straight(Torsion(STIFFNESS), clamp="start", fix="end").torsion() == []
+
+
+def test_a_motor_turns_an_end_by_its_course() -> None:
+    """A parabola through rows of one: turns = t^2/8."""
+    rows = [(t, t**2 / 8) for t in (0.0, 0.5, 1.1, 2.0)]
+    cable = straight(Torsion(STIFFNESS, end=MotorCourse(rows)), clamp=["start", "end"])
+    for k in range(1, 5):
+        cable.step(1 / 60, steps=30)
+        assert cable.torsion()[0].twist == pytest.approx(2 * math.pi * (0.5 * k) ** 2 / 8, abs=1e-9)
+    assert cable.effects["torsion"].end == MotorCourse(tuple(rows))
+    with pytest.raises((ValueError, errors.Error)):
+        straight(Torsion(STIFFNESS, end=MotorCourse([(1.0, 0.0), (0.5, 1.0)])), clamp=["start", "end"])
 
 
 def test_a_reel_keeps_the_twist_that_is_out() -> None:

@@ -172,6 +172,35 @@ pub enum Error {
         /// Depth in m.
         depth: f64,
     },
+    /// Cables that touch each other, and would be found on the other side of each other: statics
+    /// compute no contact between them.
+    #[error(
+        "cable {cable:?} would pass through {}, near {arc_length:.4} m, from where it was drawn to where it would rest: statics compute no contact of \
+         cables with each other: draw it on the other side, or step until it rests",
+        if .cable == .other { "itself".to_string() } else { format!("cable {other:?}") }
+    )]
+    CablesPassInStatics {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the other one, or its own.
+        other: String,
+        /// Arc length of the first in m.
+        arc_length: f64,
+    },
+    /// A cable with contact that would be found in a body which cables move, or on its other side:
+    /// statics compute no contact between them.
+    #[error(
+        "cable {cable:?} would be in body {body:?} or pass through it, near {arc_length:.4} m, from where it was drawn to where it would rest: statics \
+         compute no contact of cables with bodies that they move: step until it rests"
+    )]
+    CablePassesBodyInStatics {
+        /// Name of the cable.
+        cable: String,
+        /// The body.
+        body: RigidBodyHandle,
+        /// Arc length in m.
+        arc_length: f64,
+    },
     /// A body whose state is not finite.
     #[error("body {body:?} has a {quantity} that is not finite at t = {time} s")]
     BodyNotFinite {

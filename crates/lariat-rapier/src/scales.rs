@@ -72,6 +72,21 @@ pub(crate) mod body {
     /// chains.rs), one in ten where the force is right.
     pub(crate) const SETTLE_STEPS: f64 = 0.25;
 
+    /// Share of the way of a body from which a gap of its joints is told. Setting: the error of
+    /// position that is promised to be told.
+    pub(crate) const JOINT_WAY: f64 = 0.1;
+
+    /// Share of the arm of a joint from which its gap is told of a body at rest. Setting: that of
+    /// the length of a cable from which its positions are warned of.
+    pub(crate) const JOINT_GAP: f64 = 2e-3;
+
+    /// Time in s and Rapier steps for which a gap must last. Derived: a blow opens a joint for a
+    /// step or two, until Rapier has corrected its position.
+    pub(crate) const JOINT_TIME: f64 = 0.05;
+
+    /// Rapier steps for which a gap must last. Derived: as above.
+    pub(crate) const JOINT_STEPS: u32 = 3;
+
     /// Speed in m/s below which a deviation is rounding. Unknown: what Rapier's rounding gives to
     /// bodies at rest is to be below it.
     pub(crate) const SETTLE_SPEED: f64 = 1e-4;
@@ -193,6 +208,12 @@ pub(crate) mod step {
     /// Unknown: loads fall asleep and slow ones do not (tests, sleep.rs).
     pub(crate) const STEADY_FORCE_CHANGE: f64 = 2e-3;
 
+    /// Rate in rad/s of the twist of a cable below which it may sleep: Rapier's own limit, half a
+    /// radian per second, is far from the rest of a load that turns on its rope. Derived:
+    /// [`STEADY_FORCE_CHANGE`] of the torque of a radian in the half second in which a body falls
+    /// asleep.
+    pub(crate) const SLEEP_SPIN: f64 = 4e-3;
+
     /// Share of a Rapier step that is left at least where it is divided at a break. Derived: the
     /// shortest step of error control, of which there are 64 in a host step; what a cable passes on
     /// meanwhile is that of one such step.
@@ -298,6 +319,10 @@ pub(crate) mod read {
     /// Largest difference of velocities in m/s at the start of an attachment without a warning.
     /// Unknown: scenes have the same.
     pub(crate) const JOLT: f64 = 1e-5;
+
+    /// Largest distance of an anchor from the origin of a dynamic body over the radius of its
+    /// colliders. Derived: no hook is further from its body; scenes have the same.
+    pub(crate) const FAR_ANCHOR: f64 = 3.0;
 
     /// Depth in m, besides half the thickness of the cable, that is not taken for touching.
     /// Unknown: a millimetre.

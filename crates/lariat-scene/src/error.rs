@@ -199,8 +199,11 @@ pub enum Error {
         /// Process and start of that run.
         holder: String,
     },
-    /// A file that no run wrote, and that this one would overwrite.
-    #[error("{} is not the result of an earlier run and would be overwritten: move it, or give another folder", path.display())]
+    /// A file that Lariat did not write, or that was changed since, and that would be overwritten.
+    #[error(
+        "{} is not the result of an earlier run, or was changed since, and would be overwritten: move it, or give another name",
+        path.display()
+    )]
     InTheWay {
         /// The file.
         path: PathBuf,

@@ -9,6 +9,7 @@
 //! | [`view`] | the run as an animated page |
 //! | [`mjcf`] | cables of MuJoCo models, as a scene |
 //! | [`sweep`] | runs of a scene over a grid of values, on all threads |
+//! | [`folder`], [`signed`] | files, written so that nobody's file is lost |
 //! | [`command`] | the `lariat` command |
 //!
 //! Modules use those above them; `physics`, the Rapier side of a run, is between [`scene`] and [`run`]. The library prints
@@ -17,6 +18,7 @@
 pub mod command;
 pub mod document;
 mod error;
+pub mod folder;
 pub mod mjcf;
 mod physics;
 mod read;
@@ -24,6 +26,7 @@ pub mod run;
 pub mod scene;
 #[macro_use]
 pub mod schema;
+pub mod signed;
 mod suggest;
 pub mod sweep;
 mod text;

@@ -7,8 +7,10 @@
 //! Results do not depend on the number of threads, but for the times `cpu_s`, `wall_s` and `real_time_factor`.
 
 use crate::error::Error;
+use crate::folder::Folder;
 use crate::run::{self, Options, ProbeRecord, Recording, Summary};
 use crate::scene::{Purpose, Scene};
+use lariat_ancf::seal::Checksum;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashMap};
@@ -87,9 +89,7 @@ fn values_of(list: &str) -> Vec<String> {
 impl Source<'_> {
     /// Returns what rows of this scene are of: the FNV-1a checksum of its text, and the version.
     fn checksum(&self) -> String {
-        let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        let hash = self.text.as_bytes().iter().fold(0xcbf2_9ce4_8422_2325, step);
-        format!("{hash:016x} {}", env!("CARGO_PKG_VERSION"))
+        format!("{} {}", Checksum::of(self.text.as_bytes()).digits(), env!("CARGO_PKG_VERSION"))
     }
 
     /// Runs the scene with overrides.
@@ -166,23 +166,26 @@ fn results(summary: &Summary, probes: &[ProbeRecord]) -> BTreeMap<String, Option
 pub struct Store {
     path: PathBuf,
     file: Mutex<File>,
+    /// Keeps other programs from the folder.
+    _folder: Folder,
     done: HashMap<Vec<String>, Row>,
 }
 
 impl Store {
-    /// Opens the rows of a scene in a folder, which is created if it does not exist. A line that was not written to its end is ignored.
+    /// Opens the rows of a scene in a folder, which is created if it does not exist, and belongs to this store while it lives. A
+    /// line that was not written to its end is ignored.
     ///
     /// # Errors
-    /// [`Error::Output`].
+    /// [`Error::Busy`] while another program writes there; [`Error::InTheWay`] for a `rows.jsonl` that holds anything but rows, and
+    /// for a `table.csv` that no sweep wrote, or that was changed; [`Error::Output`].
     pub fn open(folder: &Path, source: &Source<'_>) -> Result<Self, Error> {
         let path = folder.join(ROWS);
         let fail = |source: io::Error| Error::Output { path: path.clone(), source };
-        fs::create_dir_all(folder).map_err(fail)?;
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
-            Err(error) => return Err(fail(error)),
-        };
+        // before the folder is touched, and again once no other sweep writes there
+        read_rows(&path)?;
+        let mut owned = Folder::open(folder, &[TABLE.to_string()])?;
+        owned.claim(&[], |_| false)?;
+        let text = read_rows(&path)?;
         let checksum = source.checksum();
         let rows = text.lines().filter_map(|line| serde_json::from_str::<Row>(line).ok());
         let done = rows.filter(|row| row.of == checksum).map(|row| (row.settings.clone(), row)).collect();
@@ -190,7 +193,7 @@ impl Store {
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").map_err(fail)?;
         }
-        Ok(Store { path: path.clone(), file: Mutex::new(file), done })
+        Ok(Store { path: path.clone(), file: Mutex::new(file), _folder: owned, done })
     }
 
     /// Returns the row of these settings, if it was done before the store was opened.
@@ -250,10 +253,33 @@ pub fn sweep(
     rows.into_iter().flatten().collect()
 }
 
+/// Reads the lines of a file of rows; none if there is no file.
+fn read_rows(path: &Path) -> Result<String, Error> {
+    let fail = |source| Error::Output { path: path.to_path_buf(), source };
+    let bytes = match fs::symlink_metadata(path) {
+        Ok(metadata) if metadata.is_file() => fs::read(path).map_err(fail)?,
+        Ok(_) => return Err(Error::InTheWay { path: path.to_path_buf() }),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+        Err(error) => return Err(fail(error)),
+    };
+    let text = String::from_utf8(bytes).ok().filter(|text| are_rows(text));
+    text.ok_or_else(|| Error::InTheWay { path: path.to_path_buf() })
+}
+
+/// Returns whether a text is lines of rows, of which the last may not be written to its end.
+fn are_rows(text: &str) -> bool {
+    /// How a row begins.
+    const BEGIN: &str = "{\"of\":\"";
+    let is_row = |line: &str| line.is_empty() || serde_json::from_str::<Row>(line).is_ok();
+    // one that was not written to its end stays in its place
+    text.lines().all(|line| is_row(line) || line.starts_with(BEGIN) || BEGIN.starts_with(line))
+}
+
 /// Writes rows as one table, `table.csv`: settings by key (empty where a row does not set it), results, number of warnings, error.
+/// The folder must belong to nobody: drop the [`Store`] before.
 ///
 /// # Errors
-/// [`Error::Output`].
+/// As [`Store::open`].
 pub fn write_table(folder: &Path, rows: &[Row]) -> Result<PathBuf, Error> {
     let path = folder.join(TABLE);
     let parts = |setting: &String| {
@@ -268,8 +294,8 @@ pub fn write_table(folder: &Path, rows: &[Row]) -> Result<PathBuf, Error> {
         }
     }
     let names: std::collections::BTreeSet<&String> = rows.iter().flat_map(|row| row.results.keys()).collect();
-    let write = || -> Result<(), csv::Error> {
-        let mut table = csv::Writer::from_path(&path)?;
+    let write = || -> Result<String, csv::Error> {
+        let mut table = csv::Writer::from_writer(Vec::new());
         let own = ["warnings".to_string(), "error".to_string()];
         table.write_record(keys.iter().chain(names.iter().copied()).chain(&own))?;
         for row in rows {
@@ -281,9 +307,15 @@ pub fn write_table(folder: &Path, rows: &[Row]) -> Result<PathBuf, Error> {
             let own = [row.warnings.len().to_string(), row.error.clone().unwrap_or_default()];
             table.write_record(settings.chain(names.iter().map(number)).chain(own))?;
         }
-        table.flush()?;
-        Ok(())
+        let bytes = table.into_inner().map_err(|error| error.into_error())?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     };
-    write().map_err(|error| Error::Output { path: path.clone(), source: io::Error::other(error) })?;
+    let fail = |source| Error::Output { path: path.clone(), source };
+    let text = write().map_err(|error| fail(io::Error::other(error)))?;
+    let names = [TABLE.to_string()];
+    let mut owned = Folder::open(folder, &names)?;
+    owned.claim(&names, |name| name == TABLE)?;
+    owned.write(TABLE, &text).map_err(fail)?;
+    owned.close().map_err(fail)?;
     Ok(path)
 }

@@ -145,6 +145,36 @@ fn a_chaotic_motion_is_proven_up_to_its_horizon() {
     assert!(summary.warnings.iter().any(told), "{:?}", summary.warnings);
 }
 
+/// Whips, whose coarse meshes do not come closer to each other before they resolve the motion: that no mesh does is claimed only where
+/// one twice as fine is as far away, and a claimed error holds.
+///
+/// *Source.* The same run with twice the elements and a tenth of the tolerance.
+#[test]
+fn meshes_that_come_closer_later_are_not_given_up() {
+    for (speed, bending, mass) in [(12.0, 1e-3, 0.05), (9.0, 1e-3, 0.05), (12.0, 1e-2, 0.1)] {
+        let text = format!(
+            "duration = 0.4\ngravity = [0.0, 0.0, 0.0]\n[[cable]]\nname = \"c\"\npoints = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\n\
+             axial_stiffness = 2e4\nbending_stiffness = {bending:?}\nmass_per_length = {mass:?}\nangular_velocity = [0.0, 0.0, {speed:?}]\n\
+             [[attachment]]\ncable = \"c\"\nat = \"start\"\nbody = \"world\"\n[[probe]]\nname = \"p\"\ncable = \"c\"\nat = \"end\"\n"
+        );
+        let scene = parse(&text, Purpose::Run);
+        let (summary, folder) = execute(&scene, Some(1e-3), Purpose::Run);
+        let claim = claim(&summary);
+        let (n, tolerance) = (2 * claim.elements, claim.tolerance_m.unwrap() / 10.0);
+        let finer = format!("name = \"c\"\nelements = {n}\nintegrator = {{ tolerance = {tolerance:?} }}");
+        let (_, finer) = execute(
+            &parse(&text.replace("name = \"c\"\npoints", &(finer + "\npoints")), Purpose::Run),
+            None,
+            Purpose::Run,
+        );
+        let off = apart(&scene, folder.path(), finer.path());
+        match claim.outcome {
+            Outcome::Proven => assert!(off <= claim.claimed_m.unwrap(), "{speed} rad/s: {off:.1e} m, {claim:?}"),
+            _ => assert!(off > 1e-3, "{speed} rad/s: {off:.1e} m, {claim:?}"),
+        }
+    }
+}
+
 /// With a host step so short that one step per host step passes both tolerances, their difference is zero: the error in time is not.
 #[test]
 fn a_tolerance_that_the_host_step_hides_is_flagged() {

@@ -176,6 +176,47 @@ fn a_net_of_two_by_two_is_right_with_four_elements() {
     assert!(with < 1e-4 && without > 3.0 * with, "{with} {without}");
 }
 
+/// A net of ten by ten limp cables with a load at each of its hundred crossings is right with eleven elements per cable.
+///
+/// *Source.* The same scene with four times as many; and equilibrium: its supports carry the loads and the weight.
+#[test]
+fn a_net_of_ten_by_ten_is_right_with_an_element_per_mesh() {
+    let net = |elements: usize, kinks: bool| {
+        let mut text = "engine = \"rapier\"\n".to_string();
+        let crossings: Vec<String> = (1..11).map(|k| format!("{:?}", f64::from(k))).collect();
+        let kinks = if kinks { format!("kinks = [{}]\n", crossings.join(", ")) } else { String::new() };
+        for k in 1..11 {
+            for (name, a, b) in [("x", [0, k], [11, k]), ("z", [k, 0], [k, 11])] {
+                text += &format!(
+                    "[[cable]]\nname = \"{name}{k}\"\npoints = [[{}.0, 0.0, {}.0], [{}.0, 0.0, {}.0]]\nelements = {elements}\naxial_stiffness = 1e4\n\
+                     bending_stiffness = 0.0\nmass_per_length = 0.05\n{kinks}",
+                    a[0], a[1], b[0], b[1]
+                );
+                for at in ["start", "end"] {
+                    text += &format!("[[attachment]]\ncable = \"{name}{k}\"\nat = \"{at}\"\nbody = \"world\"\n");
+                }
+            }
+        }
+        for x in 1..11 {
+            for z in 1..11 {
+                text += &format!("[[junction]]\ncable = \"x{z}\"\nat = {x}.0\nother = \"z{x}\"\nother_at = {z}.0\n");
+                text += &format!("[[load]]\ncable = \"x{z}\"\nat = {x}.0\nforce = [0.0, -20.0, 0.0]\n");
+            }
+        }
+        for k in [1, 3, 5, 6, 8, 10] {
+            text += &format!("[[probe]]\nname = \"{k}\"\ncable = \"x{k}\"\nat = 5.0\n");
+        }
+        let run = run(&text, Purpose::Static);
+        [1, 3, 5, 6, 8, 10].map(|k| last::<3>(&run, &k.to_string(), 1)).to_vec()
+    };
+    let exact = net(44, true);
+    let [with, without] = [true, false].map(|kinks| off(&net(11, kinks), &exact));
+    println!("net of 10 x 10: sag {:.4} m, off by {with:.1e} m with kinks, {without:.1e} m without", exact[2][1]);
+    assert!(with < 1e-4 && without > 10.0 * with, "{with} {without}");
+    // symmetric
+    assert!((exact[2][1] - exact[3][1]).abs() < 1e-6 && (exact[0][1] - exact[5][1]).abs() < 1e-6, "{exact:?}");
+}
+
 /// A limp cable that a ball attachment holds at 4 m: the force on it is that of both sides, and is the weight that hangs there.
 ///
 /// *Source.* Newton's third law: the forces on all three attachments are the weight; convergence against 64 elements.

@@ -1,5 +1,6 @@
 //! Cables by tension or sag instead of a length, sections by name, and graded elements.
 
+use lariat_scene::run::{self, Options};
 use lariat_scene::{Purpose, Scene};
 
 fn scene(rest: &str) -> String {
@@ -86,4 +87,45 @@ fn elements_may_be_fine_at_some_points() {
     let start =
         "elements = { count = 30, finest = 0.02, at = [\"start\"] }\nreel = { end = \"end\", rate = [[0.0, 0.0]] }";
     assert!(graded(start, &[]).is_ok());
+}
+
+/// Whatever takes an arc length takes one that rounding put beyond an end, as that end, and none further away.
+#[test]
+fn a_point_that_rounding_put_beyond_the_end_is_the_end() {
+    let text = |at: f64| {
+        format!(
+            "duration = 0.02\n[[cable]]\nname = \"a\"\npoints = [[0.0, 0.0, 0.0], [3.7, 0.0, 0.0]]\nelements = 4\n\
+             axial_stiffness = 1e4\nbending_stiffness = 0.0\nmass_per_length = 0.1\n\
+             [[cable]]\nname = \"b\"\npoints = [[0.0, 0.0, 2.0], [3.7, 0.0, 0.0]]\nlength = 4.5\nelements = 4\n\
+             axial_stiffness = 1e4\nbending_stiffness = 0.0\nmass_per_length = 0.1\n\
+             [[attachment]]\ncable = \"a\"\nat = 0.0\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"b\"\nat = 0.0\nbody = \"world\"\n\
+             [[junction]]\ncable = \"a\"\nat = {at:?}\nother = \"b\"\nother_at = \"end\"\n\
+             [[load]]\ncable = \"a\"\nat = {at:?}\nforce = [0.0, -1.0, 0.0]\n\
+             [[probe]]\nname = \"p\"\ncable = \"a\"\nat = {at:?}\n"
+        )
+    };
+    let run = |at: f64| {
+        let scene = Scene::parse("ends.toml", &text(at), &[], Purpose::Run).map_err(|error| error.to_string())?;
+        let recording =
+            run::collect(&scene, Purpose::Run, &mut Options::default()).map_err(|error| error.to_string())?;
+        assert!(recording.failed.is_none());
+        Ok::<_, String>(recording.probes[0].rows.clone())
+    };
+    let at_end = run(3.7).unwrap();
+    for share in [1e-15, 1e-12, 0.9e-9] {
+        assert_eq!(run(3.7 * (1.0 + share)).unwrap(), at_end, "{share}");
+        assert!(parsed_attachment(40.0 * (1.0 + share)).is_ok() && parsed_attachment(-40.0 * share).is_ok(), "{share}");
+    }
+    assert!(run(3.7 * (1.0 + 1e-8)).is_err() && parsed_attachment(40.0 * (1.0 + 1e-8)).is_err());
+    assert!(parsed_attachment(-4e-7).is_err());
+}
+
+fn parsed_attachment(at: f64) -> Result<(), String> {
+    let text = scene("axial_stiffness = 2.0e6\nbending_stiffness = 0.0\nmass_per_length = 1.5\n");
+    let (before, _) = text.split_once("[[attachment]]").unwrap();
+    let text = format!("{before}[[attachment]]\ncable = \"line\"\nat = {at:?}\nbody = \"world\"\n");
+    let scene = Scene::parse("scene.toml", &text, &[], Purpose::Run).map_err(|error| error.to_string())?;
+    assert!([0.0, 40.0].contains(&scene.attachments[0].arc_length));
+    Ok(())
 }

@@ -136,6 +136,64 @@ fn scale_of_catenary(width: f64, height: f64, length: f64) -> f64 {
     low
 }
 
+/// All reactions of a net together carry its weight and its load: each cable pulls once at a knot, however many cables meet there
+/// and whichever of them the junctions name.
+///
+/// *Source.* Balance of forces; what the cables of a knot do there to each other adds up to nothing.
+#[test]
+fn reactions_of_a_net_carry_its_weight_and_its_load() {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut random = move |low: f64, high: f64| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        low + (high - low) * (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for count in 2..6 {
+        let (knot, load) =
+            ([random(-1.0, 1.0), -3.0, random(-1.0, 1.0)], [random(-50.0, 50.0), -500.0, random(-50.0, 50.0)]);
+        let (mut text, mut mass) = ("duration = 1.0\n".to_string(), 0.0);
+        for k in 0..=count {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(count) + random(-0.2, 0.2);
+            let pendant = k == count;
+            let far = if pendant {
+                [knot[0], knot[1] - 3.0, knot[2]]
+            } else {
+                [knot[0] + 3.0 * angle.cos(), random(-0.5, 0.5), knot[2] + 3.0 * angle.sin()]
+            };
+            let chord = far.iter().zip(&knot).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            let (length, heavy) = (chord * random(1.01, 1.05), random(0.1, 0.4));
+            mass += length * heavy;
+            text += &format!(
+                "[[cable]]\nname = \"c{k}\"\npoints = [{far:?}, {knot:?}]\nlength = {length:?}\nelements = 6\n\
+                 axial_stiffness = 2e5\nbending_stiffness = 0.0\nmass_per_length = {heavy:?}\n"
+            );
+            if !pendant {
+                text +=
+                    &format!("[[attachment]]\ncable = \"c{k}\"\nat = \"start\"\nbody = \"world\"\nkind = \"ball\"\n");
+            }
+        }
+        for k in 0..count {
+            // to the first, or to the one before: one knot either way
+            let other = if random(0.0, 1.0) < 0.5 { 0 } else { k };
+            text += &format!(
+                "[[junction]]\ncable = \"c{other}\"\nat = \"end\"\nother = \"c{}\"\nother_at = \"end\"\n",
+                k + 1
+            );
+        }
+        text += &format!("[[load]]\ncable = \"c{count}\"\nat = \"start\"\nforce = {load:?}\n");
+        let scene = Scene::parse("net.toml", &text, &[], Purpose::Static).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let statics = run::statics(&scene, folder.path(), &mut Options::default()).unwrap().statics.unwrap();
+        let mut sum = load;
+        sum[1] -= mass * 9.81;
+        for reaction in statics.iter().flat_map(|cable| &cable.reactions) {
+            (0..3).for_each(|i| sum[i] -= reaction.force_n[i]);
+        }
+        assert!(sum.iter().all(|x| x.abs() < 1e-4), "{count} cables: {sum:?} N left; {statics:#?}");
+    }
+}
+
 #[test]
 fn statics_of_a_cable_with_one_support_have_no_sag() {
     let folder = tempfile::tempdir().unwrap();

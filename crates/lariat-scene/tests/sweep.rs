@@ -2,7 +2,7 @@
 
 use lariat_scene::run::{self, Options};
 use lariat_scene::sweep::{self, Row, Source, Store, TIMES};
-use lariat_scene::{Purpose, Scene};
+use lariat_scene::{Error, Purpose, Scene};
 use std::fs;
 use std::process::Command;
 use std::sync::Arc;
@@ -89,8 +89,9 @@ fn a_restart_runs_only_what_is_missing() {
     let first = swept(&points[..2], Some(&Store::open(folder.path(), &SOURCE).unwrap()));
     // a line that was not written to its end
     let path = folder.path().join("rows.jsonl");
-    fs::write(&path, fs::read_to_string(&path).unwrap() + "{\"of\": \"").unwrap();
+    fs::write(&path, fs::read_to_string(&path).unwrap() + "{\"of\":\"").unwrap();
     let store = Store::open(folder.path(), &SOURCE).unwrap();
+    assert!(matches!(Store::open(folder.path(), &SOURCE), Err(Error::Busy { .. })));
     let known = std::sync::Mutex::new(0);
     let count = |_: &Row, before: bool| *known.lock().unwrap() += usize::from(before);
     let rows = sweep::sweep(&SOURCE, &points, Some(&store), &Arc::default(), &count).unwrap();
@@ -98,6 +99,7 @@ fn a_restart_runs_only_what_is_missing() {
     // with the times of the first run: it was not run again
     assert_eq!(rows[..2], first);
     assert_eq!(results(&rows), results(&swept(&points, None)));
+    drop(store);
     let other = Source { text: &TEXT.replace("elements = 4", "elements = 5"), ..SOURCE };
     assert!(Store::open(folder.path(), &other).unwrap().done(&points[0]).is_none());
 }
@@ -115,6 +117,7 @@ fn a_sweep_that_is_stopped_ends_its_runs() {
     let rows = sweep::sweep(&SOURCE, &points, Some(&store), &stop, &first_row).unwrap();
     assert_eq!(rows.len(), 1);
     assert_eq!(rows[0].settings, points[0]);
+    drop(store);
     let again = Store::open(folder.path(), &SOURCE).unwrap();
     assert!(again.done(&points[0]).is_some() && points[1..].iter().all(|point| again.done(point).is_none()));
 }
@@ -191,4 +194,36 @@ fn a_run_is_written_as_an_animated_picture() {
     assert_eq!(run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap().svg(), text);
     run::run(&scene, folder.path(), &mut Options::default()).unwrap();
     assert!(!folder.path().join("run.svg").exists());
+}
+
+/// The user's own table and rows stay, byte for byte, and so does the table of a sweep that was changed; nothing else is written then.
+#[test]
+fn files_of_the_user_are_not_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, out) = (folder.path().join("rope.toml"), folder.path().join("out"));
+    fs::write(&scene, TEXT).unwrap();
+    fs::create_dir(&out).unwrap();
+    let sweep = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lariat"));
+        command.arg("sweep").arg(&scene).arg("--out").arg(&out).args(["--vary", "duration=0.05,0.1"]).output().unwrap()
+    };
+    for name in ["table.csv", "rows.jsonl"] {
+        let mine = out.join(name);
+        for text in ["mine", "{\"of\": 3}\n{}", "{}\n"] {
+            fs::write(&mine, text).unwrap();
+            let refused = sweep();
+            let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+            assert_eq!(refused.status.code(), Some(2), "{told}");
+            assert!(told.contains(name), "{told}");
+            assert_eq!(fs::read_to_string(&mine).unwrap(), text);
+            assert_eq!(fs::read_dir(&out).unwrap().count(), 1, "{name}");
+        }
+        fs::remove_file(&mine).unwrap();
+    }
+    assert!(sweep().status.success() && sweep().status.success());
+    let table = out.join("table.csv");
+    let changed = fs::read_to_string(&table).unwrap() + "mine\n";
+    fs::write(&table, &changed).unwrap();
+    assert_eq!(sweep().status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&table).unwrap(), changed);
 }

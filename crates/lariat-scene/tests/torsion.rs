@@ -52,9 +52,21 @@ type Rows = Vec<Vec<f64>>;
 
 /// Runs the scene with replacements; returns the rows of both probes.
 fn run(replaced: &[(&str, &str)]) -> Result<(Summary, [Rows; 2]), String> {
+    run_text(HOOK, ["twist", "energy"], replaced)
+}
+
+/// Runs a scene of assets/scenes, likewise.
+fn run_asset(name: &str, probes: [&str; 2], replaced: &[(&str, &str)]) -> (Summary, [Rows; 2]) {
+    let file = format!("{}/../../assets/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let (summary, rows) = run_text(&std::fs::read_to_string(file).unwrap(), probes, replaced).unwrap();
+    assert!(summary.failed.is_none() && summary.warnings.is_empty(), "{name}: {summary:?}");
+    (summary, rows)
+}
+
+fn run_text(text: &str, probes: [&str; 2], replaced: &[(&str, &str)]) -> Result<(Summary, [Rows; 2]), String> {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("hook.toml");
-    let text = replaced.iter().fold(HOOK.to_string(), |text, (from, to)| {
+    let file = folder.path().join("scene.toml");
+    let text = replaced.iter().fold(text.to_string(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
         text.replace(from, to)
     });
@@ -66,7 +78,7 @@ fn run(replaced: &[(&str, &str)]) -> Result<(Summary, [Rows; 2]), String> {
         let text = std::fs::read_to_string(out.join(format!("probes/{name}.csv"))).unwrap_or_default();
         text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
     };
-    Ok((summary, ["twist", "energy"].map(rows)))
+    Ok((summary, probes.map(rows)))
 }
 
 /// The probe has twist, torque, rate and energy; the hook turns with the frequency of a torsional
@@ -117,6 +129,25 @@ fn a_motor_of_a_scene_turns_the_hook() {
     assert!((first[1] / first[2] - 0.02).abs() < 1e-9, "{first:?}");
 }
 
+/// A motor with a course twists the rope by it while the hook is too heavy to follow.
+///
+/// *Source.* The rows, a parabola, less what the hook turns by: GJ/(L J) times the double integral of the
+/// twist, 2 pi t^2/16, that is 0.2 pi t^4/96 for the hook of 100 kg, J = 0.4 kg m^2.
+#[test]
+fn a_motor_of_a_scene_has_a_course() {
+    let motor = "stiffness = 0.02\nend = \"held\"\nstart = { rows = [[0.0, 0.0], [0.5, -0.015625], [1.0, -0.0625], [2.0, -0.25]] }\n";
+    let heavy = ("mass = 1.0\n", "mass = 100.0\n");
+    let short = ("duration = 12.0", "duration = 2.0");
+    let stiff = ("axial_stiffness = 1e4", "axial_stiffness = 1e6");
+    let (summary, [twist, _]) = run(&[("stiffness = 0.02\ninitial_twist = 0.25", motor), heavy, short, stiff]).unwrap();
+    assert!(summary.failed.is_none(), "{summary:?}");
+    for row in &twist {
+        let t = row[0];
+        let exact = PI * t * t / 8.0 - 0.05 * PI / 8.0 * t.powi(4) / 12.0;
+        assert!((row[2] - exact).abs() < 2e-3 * (0.1 + exact), "{row:?} {exact}");
+    }
+}
+
 /// What cannot be right is an error at its key, or a warning.
 ///
 /// *Source.* The contract.
@@ -129,6 +160,9 @@ fn what_is_wrong_with_torsion_in_a_scene_is_told() {
         ("\nstiffness = 0.02", "\nstiffness = -1.0", "stiffness"),
         ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = \"free\"", "start"),
         ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rate = 1.0, from = 2.0, until = 1.0 }", "stops before"),
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { from = 2.0 }", "rows"),
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rate = 1.0, rows = [[0.0, 0.0]] }", "rate"),
+        ("\nstiffness = 0.02", "\nstiffness = 0.02\nstart = { rows = [[1.0, 0.0], [0.0, 1.0]] }", "follows"),
         ("elements = 4\n", "elements = 4\nintegrator = { method = \"esdirk4\", tolerance = 1e-5 }\n", "torsion"),
         ("[cable.torsion]\nstiffness = 0.02\ninitial_twist = 0.25\n", "", "no torsion"),
     ];
@@ -165,4 +199,61 @@ fn a_stranded_rope_of_a_scene_turns_its_hook() {
     let reel = "elements = 4\nreel = { end = \"start\", rate = [[0.0, 0.1]] }\n";
     let error = run(&[("\nstiffness = 0.02\ninitial_twist = 0.25", stranded), ("elements = 4\n", reel)]).unwrap_err();
     assert!(error.contains("torque_per_tension"), "{error}");
+}
+
+/// The load of assets/scenes/hook.toml turns about where no torque is left, and comes to rest there.
+///
+/// *Source.* -k L (W + w L/2)/GJ; half of the period of a torsional pendulum, pi sqrt(L J/GJ), which damping shortens.
+#[test]
+fn the_load_of_the_hook_scene_rests_where_the_lay_has_no_torque() {
+    let (_, [twist, _]) = run_asset("hook", ["twist", "energy"], &[]);
+    let exact = -1.08e-3 * 5.0 * (981.0 + 0.5 * 0.55 * 9.81 * 5.0) / 8.0;
+    let last = twist.last().unwrap();
+    println!("{} of {exact} rad", last[2]);
+    assert!((last[2] / exact - 1.0).abs() < 2e-3, "{last:?} {exact}");
+    let through: Vec<f64> = twist
+        .windows(2)
+        .filter(|pair| (pair[0][2] - exact) * (pair[1][2] - exact) < 0.0)
+        .map(|pair| pair[0][0])
+        .collect();
+    let half = PI * f64::sqrt(5.0 * 0.9 / 8.0);
+    assert!(((through[3] - through[0]) / (3.0 * half) - 1.0).abs() < 0.08, "{through:?} {half}");
+}
+
+/// The pipe of assets/scenes/drill_string.toml lags behind its motor by J a L/GJ while it gains speed, and by M L/GJ
+/// on the rock.
+///
+/// *Source.* Strength of materials; EI and GJ of the tube by its diameters.
+#[test]
+fn the_drill_string_is_twisted_by_the_torque_of_its_bit() {
+    let (_, [twist, _]) = run_asset("drill_string", ["twist", "bit"], &[]);
+    let gj = 2.1e11 * PI / 64.0 * (0.06f64.powi(4) - 0.05f64.powi(4)) / 1.3;
+    let mean = |from: f64, to: f64| {
+        let rows: Vec<f64> = twist.iter().filter(|row| from < row[0] && row[0] < to).map(|row| row[2]).collect();
+        rows.iter().sum::<f64>() / rows.len() as f64
+    };
+    let (speeding, drilling) = (mean(2.0, 3.9), mean(14.0, 16.0));
+    let exact = [7.5 * PI / 4.0 * 100.0 / gj, 300.0 * 100.0 / gj];
+    println!("{speeding} {drilling} of {exact:?} rad");
+    assert!((speeding / exact[0] + 1.0).abs() < 0.15, "{speeding} {exact:?}");
+    assert!((drilling / exact[1] + 1.0).abs() < 3e-3, "{drilling} {exact:?}");
+}
+
+/// The hose of assets/scenes/hose.toml stays straight at 0.97 of Greenhill's torque, and kinks at 1.03 of it.
+///
+/// *Source.* Greenhill 1883: the least m = M L/EI at which a clamped rod under T L^2/EI = 10 is unstable, as the
+/// experiment `twist` of cosseratbench 0.3.0 computes it from B w'''' - i M w''' - T w'' = 0: 10.42886.
+#[test]
+fn the_hose_kinks_at_the_torque_of_greenhill() {
+    let critical = 10.42886 * 0.03 / 0.02 / (2.0 * PI);
+    let way = |share: f64| {
+        let turns = format!("[6.5, {0}], [7.0, {0}]", share * critical);
+        let replaced = [("[6.5, 3.0], [7.0, 3.0]", turns.as_str()), ("duration = 12.0", "duration = 25.0")];
+        let (_, [middle, _]) = run_asset("hose", ["middle", "twist"], &replaced);
+        let off = |row: &Vec<f64>| row[2].hypot(row[3]);
+        middle[middle.len() - 60..].iter().map(off).fold(0.0, f64::max)
+    };
+    let [below, above] = [0.97, 1.03].map(way);
+    println!("{below} m, {above} m");
+    assert!(below < 2e-3 && above > 0.1, "{below} {above}");
 }

@@ -10,10 +10,11 @@ use super::{Cable, Snapshot, layout};
 use crate::at::At;
 use crate::effect::force_density::ForceDensities;
 use crate::effect::potential::Potentials;
-use crate::effect::{Damping, Effects, ForceDensity, RopeKind};
+use crate::effect::{AxialLaw, Damping, Effects, ForceDensity, RopeKind};
 use crate::error::{Error, require, require_finite};
 use crate::integrate::Fidelity;
 use crate::load::PointLoad;
+use crate::material::RopeMaterial;
 use crate::model::{Corner, Drawn, Model, STANDARD_GRAVITY};
 use crate::obstacle::Obstacles;
 use crate::point::Point;
@@ -45,6 +46,8 @@ pub struct CableBuilder {
     /// Length in m of the finest elements, and the points where they are.
     grading: Option<(f64, Vec<At>)>,
     sections: Vec<(f64, Section)>,
+    /// Whether a section is that of a rope by name.
+    by_name: bool,
     nodes_at: Vec<f64>,
     rule: Option<Rule>,
     allow_rank_deficient: bool,
@@ -69,6 +72,7 @@ impl Default for CableBuilder {
             elements: 10,
             grading: None,
             sections: Vec::new(),
+            by_name: false,
             nodes_at: Vec::new(),
             rule: None,
             allow_rank_deficient: false,
@@ -149,6 +153,18 @@ impl CableBuilder {
     /// Section of the whole cable.
     pub fn section(self, section: Section) -> Self {
         self.section_from(0.0, section)
+    }
+
+    /// Section of the whole cable by name: that of a rope or chain of this material and nominal
+    /// diameter in m. Its EA is force over elongation, as catalogues have it, so its axial law is
+    /// Hooke's, unless the [effects](Self::effects) have one, or what no law goes with: a rest
+    /// stretch or a torque of tension.
+    ///
+    /// # Errors
+    /// As [`RopeMaterial::section`].
+    pub fn rope(mut self, material: RopeMaterial, diameter: f64) -> Result<Self, Error> {
+        self.by_name = true;
+        Ok(self.section(material.section(diameter)?))
     }
 
     /// Section from an arc length (m) on, up to the next one given: for cables made of pieces. A
@@ -317,7 +333,7 @@ impl CableBuilder {
         let arc_length = |at: At| match at {
             At::Start | At::Node(0) => Ok(0.0),
             At::End => Ok(length),
-            At::ArcLength(s) => Ok(s),
+            At::ArcLength(s) => Ok(grading::on_length(s, length).unwrap_or(s)),
             At::Node(node) => Err(Error::NodeBeforeMesh { cable: cable(), node }),
         };
         let mut breaks = vec![0.0, length];
@@ -334,10 +350,13 @@ impl CableBuilder {
                 Some(Grading { finest: *finest, points })
             }
         };
-        for &s in breaks.iter().chain(self.loads.iter().map(|l| &l.arc_length)) {
-            if !(s >= 0.0 && s <= length * (1.0 + 1e-12)) {
-                return Err(Error::OutOfRange { cable: self.name, what: "arc length", value: s, limit: length });
-            }
+        for s in breaks.iter_mut().chain(self.loads.iter_mut().map(|load| &mut load.arc_length)) {
+            *s = grading::on_length(*s, length).ok_or_else(|| Error::OutOfRange {
+                cable: self.name.clone(),
+                what: "arc length",
+                value: *s,
+                limit: length,
+            })?;
         }
         let s = grading::nodes(&mut breaks, length, self.elements, grading.as_ref())?;
         let elements: Vec<Element> = s
@@ -352,6 +371,9 @@ impl CableBuilder {
             let damping = kind.damping_of(&elements);
             let limp = rule.bending == BendingRule::None;
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
+        }
+        if self.by_name && self.effects.axial_law.is_none() {
+            self.effects.axial_law = AxialLaw::of_elongation(&self.effects, rule);
         }
         let mut laid = layout::along_polyline(&self.points, &s, self.gravity);
         let kept = self.kept(&s, arc_length)?;
@@ -381,6 +403,7 @@ impl CableBuilder {
             reels: Reels::default(),
             corners: laid.iter().filter_map(Corner::of).collect(),
             drawn: drawn_ends,
+            drawn_length: Some(drawn),
             least_damping: 0.0,
         };
         let default = if model.effects.need_discrete_gradient() { Fidelity::Game } else { Fidelity::default() };

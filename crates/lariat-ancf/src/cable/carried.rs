@@ -14,6 +14,21 @@
 //! moment M_h instead, which is larger, and the line of the force is off by `(M_h - M)/F`: so is
 //! the node, where it may move.
 //!
+//! Where it is free to turn between two pieces, at a load, a held point or a ball joint, the moment
+//! is that of both, and the angles to both forces F_1 and F_2 add up to Theta, the one between
+//! them:
+//!
+//! ```text
+//! a sin(theta_1/2) = b sin(theta_2/2)     theta_1 + theta_2 = Theta     a = sqrt(EI_1 F_1), b likewise
+//! M = 2 a b sin(Theta/2)/sqrt(a^2 + 2 a b cos(Theta/2) + b^2) + (b K_1 + a K_2)/(a + b)
+//! ```
+//!
+//! K = EI |F x dF/ds|/F^2 is the moment that the cable has beyond the layer, as a string that its
+//! weight bends, to the first order. A small load P across a tension T makes `P sqrt(EI/T)/2`.
+//! Forces are right on every mesh, since they are in equilibrium with the load, so that is what is
+//! read there where the elements are longer than the layer. What a clamp carries is read as it is:
+//! it is the reaction.
+//!
 //! # Validity
 //!
 //! Where nothing else bends it within the layer. Beside elements of 3.7, 4.9, 9.2 and 37
@@ -25,7 +40,9 @@
 //! Love 1944, section 262 (the elastica). Moments are those of [equilibrium](crate::system).
 
 use super::Cable;
-use crate::scales::watch::LAYER;
+use crate::rule::BendingRule;
+use crate::scales::cable::AT_NODE;
+use crate::scales::watch::{LAYER, ROOM};
 use crate::system::Carried;
 use nalgebra::Vector3;
 
@@ -76,6 +93,65 @@ impl Cable {
         reading.carried(e, |i| present[i], contacts)
     }
 
+    /// Returns the moment in N m at a node between two elements where it is free to turn at a load
+    /// or a held point, if it bends there within a shorter piece than the elements: that of the
+    /// elastica. `known`: what the element before the node, or the one behind it, carries.
+    pub(super) fn layer_moment(&self, node: usize, known: &[Carried; 2], before: bool) -> Option<Vector3<f64>> {
+        let inner = 0 < node && node < self.elements().len();
+        if !inner || self.model.rule.bending == BendingRule::None {
+            return None;
+        }
+        let s = self.arc_length_of(node);
+        let support = self.model.support(node).copied().unwrap_or_default();
+        let near = |at: f64| (at - s).abs() <= AT_NODE * self.length();
+        let kinks = support.holds_position() || self.model.pulled_points().any(near);
+        if support.holds_slope() || !kinks || self.has_moment(s) {
+            return None;
+        }
+        let sides = if before { [*known, self.carried(node)?] } else { [self.carried(node - 1)?, *known] };
+        // squares of lengths over sqrt(EI/F)
+        let [mut shortest_room, mut longest_element] = [f64::INFINITY, 0.0f64];
+        let (mut strengths, mut beyond) = ([0.0; 2], [Vector3::zeros(); 2]);
+        for (k, side) in sides.iter().enumerate() {
+            let Carried { force, tension, .. } = side[1 - k];
+            let element = &self.elements()[node - 1 + k];
+            let flexural = element.section.bending_stiffness;
+            if flexural <= 0.0 || tension <= 0.0 {
+                return None;
+            }
+            let (size, room) = (force.norm(), self.room(node, k == 0));
+            shortest_room = shortest_room.min(room * room * size / flexural);
+            longest_element = longest_element.max(element.length.powi(2) * size / flexural);
+            strengths[k] = (flexural * size).sqrt();
+            let rate = (side[1].force - side[0].force) / element.length;
+            beyond[k] = flexural / (size * size) * force.cross(&rate);
+        }
+        if longest_element <= 1.0 || shortest_room <= ROOM * ROOM {
+            return None;
+        }
+        let ([a, b], [first, second]) = (strengths, [sides[0][1].force, sides[1][0].force]);
+        let axis = first.cross(&second).try_normalize(0.0).unwrap_or_default();
+        let (sin, cos) = (0.5 * first.angle(&second)).sin_cos();
+        let kink = axis * (2.0 * a * b * sin / (a * a + 2.0 * a * b * cos + b * b).sqrt());
+        Some(kink + (b * beyond[0] + a * beyond[1]) / (a + b))
+    }
+
+    /// Returns the length in m from a node to the next one where something holds or loads the
+    /// cable, or to its end.
+    fn room(&self, node: usize, before: bool) -> f64 {
+        let (count, mut room, mut at) = (self.elements().len(), 0.0, node);
+        let mut s = self.arc_length_of(node);
+        loop {
+            let element = if before { at - 1 } else { at };
+            let length = self.elements()[element].length;
+            room += length;
+            (at, s) = if before { (at - 1, s - length) } else { (at + 1, s + length) };
+            if at == 0 || at == count || !self.model.is_smooth_at(at, s) {
+                return room;
+            }
+        }
+    }
+
     /// Calls `visit` with each layer that is shorter than the elements beside its node.
     pub(crate) fn visit_layers(&self, mut visit: impl FnMut(Layer)) {
         let (elements, mut from) = (self.elements(), 0.0);
@@ -117,7 +193,7 @@ impl Cable {
 
     /// Returns whether a moment of a load is at an arc length in m.
     fn has_moment(&self, s: f64) -> bool {
-        let near = |at: f64| (at - s).abs() <= crate::scales::cable::AT_NODE * self.length();
+        let near = |at: f64| (at - s).abs() <= AT_NODE * self.length();
         self.model.loads.iter().any(|load| load.moment != Vector3::zeros() && near(load.arc_length))
     }
 }

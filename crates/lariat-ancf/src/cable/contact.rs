@@ -31,9 +31,15 @@ impl Cable {
             Some(key) => Err(Error::ObstacleKey { cable: self.model.name.clone(), key }),
             None => checked.map_err(|e| e.of_cable(&self.model.name)),
         };
+        let time = self.time();
         let own = &mut self.model.obstacles.0;
         match outcome {
-            Ok(()) => drop(own.drain(..before)),
+            Ok(()) => {
+                let (old, new) = own.split_at(before);
+                let posed = new.iter().find_map(|obstacle| obstacle.posed(old, time));
+                self.posed = posed.map(|(key, distance)| (time, key, distance));
+                drop(own.drain(..before));
+            }
             Err(_) => own.truncate(before),
         }
         outcome

@@ -29,6 +29,13 @@
 use crate::error::{Error, require};
 use crate::scales::cable::{AT_NODE, MOST_GROWTH};
 
+/// Returns an arc length that is on a cable of this length (both in m), or `None`; one within
+/// [`AT_NODE`] of the length beyond an end is at the end.
+pub(super) fn on_length(s: f64, length: f64) -> Option<f64> {
+    let slack = AT_NODE * length;
+    (-slack..=length + slack).contains(&s).then(|| s.clamp(0.0, length))
+}
+
 /// A mesh that is graded towards points.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Grading {

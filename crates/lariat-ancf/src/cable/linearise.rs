@@ -2,11 +2,30 @@
 
 use super::Cable;
 use crate::effect::acts::ForceInput;
+use crate::effect::torsion::segment::Segment;
 use crate::linalg::BlockTridiagonal;
 use crate::state::State;
 use crate::system::jacobian::Jacobians;
 use crate::system::project_matrix;
 use nalgebra::DMatrix;
+
+/// What torsion adds to the matrices of a cable, between two neighbouring nodes that hold its spin:
+/// the stiffness K g g^T and the damping C g g^T, which couple all coordinates.
+///
+/// The twist is that of the curve, whose derivatives g are, less the angle by which what holds the
+/// first node spins about the slope there, and that of the last node more.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TwistBorder {
+    /// The two nodes, ascending.
+    pub nodes: [usize; 2],
+    /// K in N m.
+    pub stiffness: f64,
+    /// C in N m s.
+    pub damping: f64,
+    /// Derivatives g of the twist by all coordinates, in rad/m and rad.
+    pub gradient: Vec<f64>,
+}
 
 impl Cable {
     /// See [`Linearisation`](crate::coupling::Linearisation).
@@ -71,6 +90,19 @@ impl Cable {
     /// See [`Linearisation`](crate::coupling::Linearisation).
     pub(crate) fn apply_supports(&self, matrix: &mut BlockTridiagonal) {
         project_matrix(&self.model, matrix);
+    }
+
+    /// See [`Linearisation`](crate::coupling::Linearisation).
+    pub(crate) fn twist_borders(&self) -> Vec<TwistBorder> {
+        let damping = self.model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
+        let border = |(segment, _): (Segment, _)| {
+            let (mut own, mut gradient) = (Vec::new(), vec![0.0; self.positions().len()]);
+            segment.gradient(&self.model.elements, self.positions(), &mut own);
+            gradient[segment.range()].copy_from_slice(&own);
+            let stiffness = segment.stiffness;
+            TwistBorder { nodes: segment.nodes, stiffness, damping: stiffness * damping, gradient }
+        };
+        self.segments().into_iter().map(border).collect()
     }
 
     /// Returns the angular frequencies in rad/s of small motions about the present state, supports

@@ -1,6 +1,7 @@
 //! Gravity and point loads of a cable, changed between steps.
 
 use super::Cable;
+use crate::element::shape::{self, combine};
 use crate::error::{Error, require_finite};
 use crate::load::PointLoad;
 use nalgebra::Vector3;
@@ -32,9 +33,9 @@ impl Cable {
     /// [`Error::OutOfRange`] for an arc length off the cable, [`Error::InvalidValue`] for numbers
     /// that are not finite, [`Error::NotWithReel`] for a load on the element at the eye of a reel.
     pub fn add_load(&mut self, load: PointLoad) -> Result<(), Error> {
-        self.check_arc_length(load.arc_length)?;
+        let arc_length = self.on_cable(load.arc_length)?;
         load.check().map_err(|e| e.of_cable(self.name()))?;
-        self.model.loads.push(PointLoad { start: self.time(), ..load });
+        self.model.loads.push(PointLoad { arc_length, start: self.time(), ..load });
         if let Err(error) = self.model.check_loads_at_eyes() {
             self.model.loads.pop();
             return Err(error.of_cable(self.name()));
@@ -77,6 +78,20 @@ impl Cable {
     pub fn clear_loads(&mut self) {
         self.model.loads.clear();
         self.take_loads();
+    }
+
+    /// Returns of the moment with the largest part about the tangent, which does nothing, the arc
+    /// length in m, that part and the moment in N m; those with less than `share` of themselves
+    /// about it, and those that a clamp takes, do not count.
+    pub(crate) fn moment_along(&self, share: f64) -> Option<[f64; 3]> {
+        let loads = self.model.loads.iter().filter(|load| load.moment != Vector3::zeros());
+        let of = |load: &PointLoad| {
+            let (e, xi) = self.model.locate(load.arc_length);
+            let slope = combine(self.positions(), e, &shape::slope(xi, self.model.elements[e].length));
+            let (part, moment) = (load.moment.dot(&slope.try_normalize(0.0)?).abs(), load.moment.norm());
+            (part > share * moment && !self.holds_moment(load.arc_length)).then_some([load.arc_length, part, moment])
+        };
+        loads.filter_map(of).max_by(|a, b| a[1].total_cmp(&b[1]))
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

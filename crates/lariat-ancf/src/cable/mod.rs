@@ -33,6 +33,7 @@ mod contact;
 mod corner;
 mod effects;
 pub mod energy;
+mod friction;
 mod grading;
 mod layout;
 pub mod linearise;
@@ -64,6 +65,7 @@ use crate::error::Error;
 use crate::integrate::{Fidelity, Integrator, Scratch};
 use crate::model::Model;
 use crate::rule::Rule;
+use crate::scales::cable::AT_NODE;
 use crate::section::Element;
 use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
@@ -83,7 +85,7 @@ pub use torsion::TorsionReading;
 ///
 /// Serialises as its description and state; a deserialised cable continues bitwise the same run.
 /// JSON needs `serde_json` with its feature `float_roundtrip`: without it, numbers are read back
-/// changed in the last bit.
+/// changed in the last bit. A [seal](crate::seal) around the bytes finds damage.
 ///
 /// # Validity
 ///
@@ -114,6 +116,9 @@ pub struct Cable {
     pub(crate) watch: Option<Box<Watch>>,
     /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
     pub(crate) end_noise: f64,
+    /// Time in s at which an obstacle was last moved by its pose alone, its key, and by how far in
+    /// m.
+    posed: Option<(f64, u64, f64)>,
     /// Time in s at which it was built, or inserted among others.
     begins: f64,
     /// The shape before parts with free ends turned with their clamps, if they did.
@@ -154,6 +159,7 @@ impl Cable {
             before: State::default(),
             watch: None,
             end_noise: 0.0,
+            posed: None,
             begins: 0.0,
             as_drawn: None,
             sagging: None,
@@ -278,16 +284,20 @@ impl Cable {
         self.system.scales.frequency_bound
     }
 
-    pub(crate) fn check_arc_length(&self, s: f64) -> Result<(), Error> {
+    /// Returns an arc length that is on the cable; one within 1e-9 of the length beyond an end is
+    /// at the end.
+    pub(crate) fn on_cable(&self, s: f64) -> Result<f64, Error> {
         let limit = self.length();
-        if s >= 0.0 && s <= limit * (1.0 + 1e-12) {
-            Ok(())
-        } else {
-            Err(Error::OutOfRange { cable: self.name().to_string(), what: "arc length", value: s, limit })
-        }
+        grading::on_length(s, limit).ok_or_else(|| Error::OutOfRange {
+            cable: self.name().to_string(),
+            what: "arc length",
+            value: s,
+            limit,
+        })
     }
 
-    /// Returns the arc length of a point in m.
+    /// Returns the arc length of a point in m; one within 1e-9 of the length beyond an end is at
+    /// the end.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if it is not on the cable.
@@ -296,7 +306,7 @@ impl Cable {
             At::Start => Ok(0.0),
             At::End => Ok(self.length()),
             At::Node(i) => self.model.node_arc_lengths().nth(i).ok_or_else(|| self.no_node(i as f64)),
-            At::ArcLength(s) => self.check_arc_length(s).map(|()| s),
+            At::ArcLength(s) => self.on_cable(s),
         }
     }
 
@@ -312,7 +322,7 @@ impl Cable {
     /// of the length.
     pub fn node(&self, at: impl Into<At>) -> Result<usize, Error> {
         let s = self.arc_length(at)?;
-        let (nodes, within) = (|| self.model.node_arc_lengths(), 1e-9 * self.length());
+        let (nodes, within) = (|| self.model.node_arc_lengths(), AT_NODE * self.length());
         nodes().position(|x| (x - s).abs() <= within).ok_or_else(|| {
             let nearest = nodes().min_by(|a, b| (a - s).abs().total_cmp(&(b - s).abs())).unwrap_or(0.0);
             Error::NoNode { cable: self.name().to_string(), arc_length: s, nearest }

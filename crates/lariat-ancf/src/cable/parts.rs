@@ -14,6 +14,12 @@ impl Cable {
     }
 
     pub(crate) fn step_failed(&self, at: f64, step: f64, failure: StepFailure) -> Error {
+        let posed = self.posed.filter(|(time, ..)| *time == self.time());
+        let failure = match (posed, failure) {
+            // a limit is one whatever happens
+            (None, failure) | (_, failure @ StepFailure::WorkLimit) => failure,
+            (Some((_, key, distance)), cause) => StepFailure::PosedObstacle { key, distance, cause: Box::new(cause) },
+        };
         log::warn!("cable {:?}: step failed at t = {at} s: {failure}", self.model.name);
         Error::StepFailed { cable: self.model.name.clone(), time: self.time(), at, step, failure }
     }

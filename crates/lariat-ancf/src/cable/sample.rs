@@ -24,6 +24,8 @@
 //! differs by `M kappa`, for this curvature is one per deformed length. What is added to the moment
 //! beside them to reach it is `P_2(2 xi - 1)` times a linear function, which vanishes at the Gauss
 //! points. Where equilibrium is not known, all is as beside these nodes, and the moment is raw.
+//! Where a load or a held point bends the cable within less than an element, the moment there is
+//! that of the elastica (`cable/carried.rs`).
 //!
 //! # References
 //!
@@ -59,7 +61,9 @@ pub struct Sample {
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
     /// Bending moment EI kappa in N m: along the binormal, and by equilibrium beside nodes that are
-    /// held, loaded or ends. Where |r'| < 1/2, the continued power of the bending rule.
+    /// held, loaded or ends; of an elastica under the forces there, where a node that is loaded or
+    /// held, and free to turn, has elements longer than what bends there. Where |r'| < 1/2, the
+    /// continued power of the bending rule.
     pub moment: Vector3<f64>,
     /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before
     /// averaging; at a node that equilibrium judges, what the strain misses; all of the tension
@@ -71,10 +75,10 @@ impl Cable {
     /// Returns the state of the cable at an arc length of the unstretched cable, in m.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if `arc_length` is not in `[0, length]`.
+    /// [`Error::OutOfRange`] if `arc_length` is not in `[0, length]`, by more than 1e-9 of the
+    /// length.
     pub fn sample(&self, arc_length: f64) -> Result<Sample, Error> {
-        self.check_arc_length(arc_length)?;
-        let (e, xi) = self.model.locate(arc_length);
+        let (e, xi) = self.model.locate(self.on_cable(arc_length)?);
         Ok(self.smooth_in(e, xi))
     }
 
@@ -83,7 +87,12 @@ impl Cable {
     pub(crate) fn smooth_in(&self, e: usize, xi: f64) -> Sample {
         let raw = self.sample_in(e, xi);
         let by_equilibrium = [e, e + 1].map(|node| self.is_read_by_equilibrium(node, self.arc_length_of(node)));
-        let carried = if by_equilibrium.contains(&true) { self.carried(e) } else { None };
+        let mut carried = if by_equilibrium.contains(&true) { self.carried(e) } else { None };
+        if let Some(known) = carried {
+            let layers = [0, 1].map(|k| self.layer_moment(e + k, &known, k == 1).filter(|_| by_equilibrium[k]));
+            let both = carried.iter_mut().flatten().zip(layers);
+            both.for_each(|(side, layer)| side.moment = layer.unwrap_or(side.moment));
+        }
         let moment = carried.map_or(raw.moment, |carried| raw.moment + self.missing_moment(e, xi, carried));
         let near = AT_NODE * self.length() / self.elements()[e].length;
         let node = [xi, 1.0 - xi].into_iter().position(|distance| distance <= near);

@@ -20,10 +20,11 @@
 //! turned by the motor; on a body it turns with that.
 
 use super::Cable;
-use crate::effect::EndSpin;
 use crate::effect::torsion::curve::{rotated, slopes_along};
 use crate::effect::torsion::segment::Segment;
+use crate::effect::{EndSpin, RestShape};
 use crate::error::Error;
+use crate::section::Element;
 use crate::state::SegmentTwist;
 use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
@@ -39,10 +40,10 @@ impl Cable {
         let lines: Vec<_> = segments.iter().map(|(segment, twist)| self.directors(segment, twist)).collect();
         let direction = |&place: &f64| {
             let here = self.sample(place)?;
-            let (e, xi) = self.model.locate(place);
+            let (e, xi) = self.model.locate(self.on_cable(place)?);
             let Some(k) = segments.iter().position(|(segment, _)| segment.contains(e)) else { return Ok(None) };
             let (segment, twist) = &segments[k];
-            let rate = segment.rate_in(self.elements(), self.positions(), twist.twist, e);
+            let rate = segment.rate_in(self.unstressed(), self.positions(), twist.twist, e);
             // from the nearer node
             let (node, share) = if xi < 0.5 { (e, xi) } else { (e + 1, xi - 1.0) };
             let turn = rate * share * self.elements()[e].length;
@@ -51,6 +52,11 @@ impl Cable {
             Ok(Some(about(&to, turn) * rotated(director, &from, &to)))
         };
         places.iter().map(direction).collect()
+    }
+
+    /// Returns the elements, and their shape without stress.
+    fn unstressed(&self) -> (&[Element], Option<&RestShape>) {
+        (self.elements(), self.model.effects.rest_shape.as_ref())
     }
 
     /// Returns tangents and directors at the nodes of a segment.
@@ -62,7 +68,7 @@ impl Cable {
         let mut list = vec![(tangent, self.first_director(first, &tangent, twist))];
         for (k, ([x, m, y], element)) in slopes.into_iter().zip(elements).enumerate() {
             let carried = rotated(rotated(list[list.len() - 1].1, &x, &m), &m, &y);
-            let rate = segment.rate_in(self.elements(), self.positions(), twist.twist, first + k);
+            let rate = segment.rate_in(self.unstressed(), self.positions(), twist.twist, first + k);
             let turn = rate * element.length + x.dot(&m.cross(&y)) / 6.0;
             list.push((y, about(&y, turn) * carried));
         }
@@ -72,7 +78,8 @@ impl Cable {
     /// Returns the director of the first hold of a segment.
     fn first_director(&self, node: usize, tangent: &Vector3<f64>, twist: &SegmentTwist) -> Vector3<f64> {
         let across = |d: &Vector3<f64>| Vector3::ith(d.iamin(), 1.0).cross(d).normalize();
-        let spin = self.model.effects.torsion.map_or(EndSpin::Held, |torsion| self.model.end_spin(&torsion, node));
+        let spin =
+            self.model.effects.torsion.as_ref().map_or(&EndSpin::Held, |torsion| self.model.end_spin(torsion, node));
         let Some([w, x, y, z]) = twist.attitudes[0] else {
             return about(tangent, spin.angle(self.time())) * across(tangent);
         };

@@ -36,6 +36,10 @@ impl Cable {
             let _ = self.system.factor_mass(&self.model);
             return Err(self.step_failed(self.time(), 0.0, failure));
         }
+        if before.holds_position() != support.holds_position() {
+            // other free spans
+            self.snapshot.state.memory.bent_at.fill(0.0);
+        }
         if before.slope != support.slope {
             let before = self.snapshot.state.q.clone();
             support.turn(&mut self.snapshot.state.q[6 * node + 3..6 * node + 6]);

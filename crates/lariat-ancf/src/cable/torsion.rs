@@ -1,6 +1,7 @@
 //! Torque and twist of a cable with torsion.
 
 use super::Cable;
+use crate::effect::EndSpin;
 use crate::effect::torsion::curve::Curve;
 use crate::effect::torsion::lengths::Lengths;
 use crate::effect::torsion::segment::{CurveChange, Segment};
@@ -8,6 +9,7 @@ use crate::effect::torsion::stranded::Strands;
 use crate::element::side::Side;
 use crate::error::Error;
 use crate::state::SegmentTwist;
+use crate::support::SlopeSupport;
 use crate::system::project_vector;
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -60,8 +62,7 @@ impl Cable {
     /// # Errors
     /// [`Error::OutOfRange`] beyond the cable.
     pub fn torsion_at(&self, arc_length: f64) -> Result<Option<TorsionReading>, Error> {
-        self.check_arc_length(arc_length)?;
-        let (element, _) = self.model.locate(arc_length);
+        let (element, _) = self.model.locate(self.on_cable(arc_length)?);
         let contains = |reading: &TorsionReading| (reading.nodes[0]..reading.nodes[1]).contains(&element);
         Ok(self.torsion().into_iter().find(contains))
     }
@@ -89,25 +90,80 @@ impl Cable {
         segments.into_iter().zip(twists.into_iter().flatten()).collect()
     }
 
-    /// Returns whether torsion does nothing, because no two nodes hold the spin.
+    /// Returns whether torsion does nothing, because no two nodes hold the spin, nor ever did: not
+    /// of the parts of a cable that was cut, or one that was let go.
     pub(crate) fn has_idle_torsion(&self) -> bool {
-        self.model.effects.torsion.is_some() && self.model.segments().next().is_none()
+        let knows = self.snapshot.state.memory.torsion.is_some();
+        self.model.effects.torsion.is_some() && !knows && self.model.segments().next().is_none()
+    }
+
+    /// Returns the nodes and the torque in N m, without its sign, of each segment, by the twists of
+    /// the last step.
+    fn torques(&self) -> impl Iterator<Item = ([usize; 2], f64)> + '_ {
+        let torsion = self.model.effects.torsion.as_ref();
+        let known = self.snapshot.state.memory.torsion.iter().flatten();
+        let (elements, mut known) =
+            (&self.model.elements, known.filter(|twist| twist.nodes[1] <= self.elements().len()));
+        core::iter::from_fn(move || {
+            let (torsion, twist) = (torsion?, known.next()?);
+            let torque = match Strands::of(torsion) {
+                None => {
+                    let own = elements[twist.nodes[0]..twist.nodes[1]].iter();
+                    torsion.stiffness * twist.twist / own.map(|element| element.length).sum::<f64>()
+                }
+                Some(_) => self.torque_in(
+                    &Segment::between(torsion, self.model.effects.rest_shape.as_ref(), elements, twist.nodes),
+                    twist,
+                ),
+            };
+            Some((twist.nodes, torque.abs()))
+        })
     }
 
     /// Returns the largest |M| l/EI of an element, by the twists of the last step.
     pub(crate) fn largest_twist(&self) -> f64 {
-        let Some(torsion) = &self.model.effects.torsion else { return 0.0 };
-        let elements = &self.model.elements;
-        let of = |twist: &SegmentTwist| {
-            let Some(own) = elements.get(twist.nodes[0]..twist.nodes[1]) else { return 0.0 };
-            let length: f64 = own.iter().map(|element| element.length).sum();
-            let torque = match Strands::of(torsion) {
-                None => torsion.stiffness * twist.twist.abs() / length,
-                Some(_) => self.torque_in(&Segment::between(torsion, elements, twist.nodes), twist).abs(),
-            };
-            own.iter().map(|e| torque * e.length / e.section.bending_stiffness).fold(0.0, f64::max)
+        let of = |([first, last], torque): ([usize; 2], f64)| {
+            let own = self.elements()[first..last].iter();
+            own.map(|e| torque * e.length / e.section.bending_stiffness).fold(0.0, f64::max)
         };
-        self.snapshot.state.memory.torsion.iter().flatten().map(of).fold(0.0, f64::max)
+        self.torques().map(of).fold(0.0, f64::max)
+    }
+
+    /// Returns the torque in N m and `int sqrt(M^2/4 EI^2 - T/EI) ds/pi` of the segment where that
+    /// is largest: above 1 a straight one would go into a loop ([`warning`](crate::warning)).
+    pub(crate) fn kinks(&self) -> (f64, f64) {
+        let q = self.positions();
+        let of = |([first, last], torque): ([usize; 2], f64)| {
+            let wave = |e: usize| {
+                let element = &self.elements()[e];
+                let bending = element.section.bending_stiffness;
+                let tension = self.reading().pull(e, 0.5, &self.system.forces.elements.gram_state(e, q, &[])).tension;
+                let square = (0.5 * torque / bending).powi(2) - tension.max(0.0) / bending;
+                element.length * square.max(0.0).sqrt()
+            };
+            (torque, (first..last).map(wave).sum::<f64>() / core::f64::consts::PI)
+        };
+        let all = self.torques().filter(|(_, torque)| *torque > 0.0).map(of);
+        all.fold((0.0, 0.0), |most, own| if own.1 > most.1 { own } else { most })
+    }
+
+    /// Returns the largest GJ/EI of an element; not of a stranded rope, whose wires slide as it
+    /// bends.
+    pub(crate) fn largest_stiffness_ratio(&self) -> f64 {
+        let Some(torsion) = self.model.effects.torsion.as_ref().filter(|own| own.torque_per_tension == 0.0) else {
+            return 0.0;
+        };
+        self.elements().iter().map(|e| torsion.stiffness / e.section.bending_stiffness).fold(0.0, f64::max)
+    }
+
+    /// Returns whether a moment about the tangent at an arc length in m is held by what clamps the
+    /// section there.
+    pub(crate) fn holds_moment(&self, arc_length: f64) -> bool {
+        let (element, xi) = self.model.locate(arc_length);
+        let node = if xi == 0.0 { element } else { element + 1 };
+        let clamped = self.model.support(node).is_some_and(|support| support.slope != SlopeSupport::Free);
+        let spin = self.model.effects.torsion.as_ref().map(|torsion| self.model.end_spin(torsion, node));
+        (xi == 0.0 || xi == 1.0) && clamped && spin != Some(&EndSpin::Swivel)
     }
 
     /// Returns by segment how far in m its twist turns the surface at its end: that of a solid
@@ -120,9 +176,17 @@ impl Cable {
         self.segments().into_iter().map(turned).collect()
     }
 
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn spin_rate(&self) -> f64 {
+        let (memory, fastest) =
+            (&self.snapshot.state.memory, |most: f64, own: &SegmentTwist| most.max(own.change.abs()));
+        let step = memory.differences.step;
+        if step > 0.0 { memory.torsion.iter().flatten().fold(0.0, fastest) / step } else { 0.0 }
+    }
+
     /// Returns whether no motor turns from now on.
     pub(crate) fn is_spin_still(&self) -> bool {
-        self.model.effects.torsion.is_none_or(|torsion| torsion.is_still(self.time()))
+        self.model.effects.torsion.as_ref().is_none_or(|torsion| torsion.is_still(self.time()))
     }
 
     /// Calls `f` with forces as functions of the coordinates that have torsion in them.
@@ -143,13 +207,10 @@ impl Cable {
     pub(crate) fn torsion_stiffness(&self) -> DMatrix<f64> {
         let size = self.positions().len();
         let mut stiffness = DMatrix::zeros(size, size);
-        let mut gradient = Vec::new();
-        for (segment, _) in self.segments() {
-            segment.gradient(&self.model.elements, self.positions(), &mut gradient);
-            let mut column = DVector::zeros(size);
-            column.as_mut_slice()[segment.range()].copy_from_slice(&gradient);
+        for border in self.twist_borders() {
+            let mut column = DVector::from_vec(border.gradient);
             project_vector(&self.model, column.as_mut_slice());
-            stiffness += &column * column.transpose() * segment.stiffness;
+            stiffness += &column * column.transpose() * border.stiffness;
         }
         stiffness
     }
@@ -195,7 +256,8 @@ impl Cable {
         let e = side.element(self.elements().len());
         let segments = self.follow_holds();
         for (number, segment) in segments.iter().enumerate().filter(|(_, segment)| segment.contains(e)) {
-            let angle = self.change_of_curve(segment, side, before, self.positions()).angle;
+            let CurveChange { angle, slips, .. } = self.change_of_curve(segment, side, before, self.positions());
+            self.diagnostics.twist_slips += slips;
             let twists = self.snapshot.state.memory.torsion.iter_mut().flatten();
             twists.skip(number).take(1).for_each(|twist| twist.twist += angle);
         }
@@ -228,17 +290,18 @@ impl Cable {
         segments
     }
 
-    /// Advances the twists by a change of the coordinates from `before` that no step made.
+    /// Advances the twists by a change of the coordinates from `before` that no step made, along
+    /// great circles, and counts what slips.
     pub(crate) fn follow_twist(&mut self, before: &[f64]) {
         let segments = self.follow_holds();
         if segments.is_empty() {
             return;
         }
-        let (state, mut secant) = (&mut self.snapshot.state, Vec::new());
-        let step: Vec<f64> = state.q.iter().zip(before).map(|(now, then)| now - then).collect();
+        let state = &mut self.snapshot.state;
         for (segment, twist) in segments.iter().zip(state.memory.torsion.iter_mut().flatten()) {
-            let lengths = Lengths::fixed(&self.model.elements);
-            twist.twist += segment.change(&lengths, before, &step, &mut secant).angle;
+            let (angle, slips) = segment.follow(&self.model.elements, [before, &state.q]);
+            twist.twist += angle;
+            self.diagnostics.twist_slips += slips;
         }
     }
 }

@@ -109,7 +109,7 @@ pub(crate) use motion::Motion;
 pub(crate) use pair::between_samples;
 #[cfg(test)]
 pub(crate) use pairs::PairEnd;
-pub use pairs::{CablePair, PairTouch};
+pub use pairs::{CablePair, PairTouch, Way, crossed_on};
 pub(crate) use pairs::{PairColumns, PairStep, Strand, Strands};
 pub(crate) use path::BodyPath;
 pub(crate) use statics::{Growth, StaticContact};

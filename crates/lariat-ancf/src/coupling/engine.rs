@@ -226,6 +226,9 @@ pub trait Coupling {
     /// Returns the speed of the fastest node in m/s.
     fn speed(&self) -> f64;
 
+    /// Returns the largest rate in rad/s at which the twist of a segment changed in the last step.
+    fn spin_rate(&self) -> f64;
+
     /// Advances the clock by `dt` (s) at rest: positions stay, velocities become zero. For a caller
     /// who knows that the cable is at rest, or wants it frozen.
     fn rest(&mut self, dt: f64);
@@ -400,6 +403,10 @@ impl Coupling for Cable {
 
     fn speed(&self) -> f64 {
         Cable::speed(self)
+    }
+
+    fn spin_rate(&self) -> f64 {
+        Cable::spin_rate(self)
     }
 
     fn rest(&mut self, dt: f64) {

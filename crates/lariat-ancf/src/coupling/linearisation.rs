@@ -1,6 +1,7 @@
 //! The matrices of a cable, and what is told of its mesh.
 
 use crate::cable::Cable;
+pub use crate::cable::linearise::TwistBorder;
 use crate::cable::mesh::{MeshIndicator, MotionIndicator};
 use crate::effect::Damping;
 use crate::error::Error;
@@ -44,6 +45,11 @@ pub trait Linearisation {
     /// matrix takes, see [`damping`](crate::effect::damping), [`drag`](crate::effect::drag) and
     /// [`force_density`](crate::effect::force_density); all of it: [`jacobians`](Self::jacobians).
     fn stiffness_matrix(&mut self) -> BlockTridiagonal;
+
+    /// Returns what [torsion](crate::Torsion) adds to stiffness and damping beyond
+    /// [`stiffness_matrix`](Self::stiffness_matrix), which has the part M d2 Phi of its torque;
+    /// none without torsion, or where no two nodes hold the spin.
+    fn twist_borders(&self) -> Vec<TwistBorder>;
 
     /// Returns an upper bound of the cable's angular frequencies in rad/s; effects and forces of
     /// your own are not in it, but added mass and the rest stretch.
@@ -121,6 +127,10 @@ impl Linearisation for Cable {
 
     fn stiffness_matrix(&mut self) -> BlockTridiagonal {
         Cable::stiffness_matrix(self)
+    }
+
+    fn twist_borders(&self) -> Vec<TwistBorder> {
+        Cable::twist_borders(self)
     }
 
     fn frequency_bound(&self) -> f64 {

@@ -16,4 +16,4 @@ mod engine;
 mod linearisation;
 
 pub use engine::Coupling;
-pub use linearisation::Linearisation;
+pub use linearisation::{Linearisation, TwistBorder};

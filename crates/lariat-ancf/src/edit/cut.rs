@@ -66,8 +66,12 @@ impl Cable {
                 (nodes[1] < q.len() / 6).then_some(SegmentTwist { nodes, ..*twist })
             };
             // a segment that is cut has lost a hold, and its twist
-            let torsion =
-                self.model.effects.torsion.map(|_| twists.iter().filter_map(|(_, twist)| own(twist)).collect());
+            let torsion = self
+                .model
+                .effects
+                .torsion
+                .as_ref()
+                .map(|_| twists.iter().filter_map(|(_, twist)| own(twist)).collect());
             let memory = Memory { torsion, ..Memory::default() };
             State { time: state.time, q: q.to_vec(), v: v.to_vec(), memory }
         };

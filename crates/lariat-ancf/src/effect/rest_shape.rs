@@ -83,6 +83,11 @@ impl RestShape {
         RestShape { pieces: vec![RestPiece { from: 0.0, stretch: 1.0, curvature }] }
     }
 
+    /// Returns whether a piece has a stress-free stretch.
+    pub(crate) fn is_stretched(&self) -> bool {
+        self.pieces.iter().any(|piece| piece.stretch != 1.0)
+    }
+
     /// Creates a stress-free stretch of the whole cable: below 1 it is under tension at its
     /// reference length.
     pub fn stretched(stretch: f64) -> Self {

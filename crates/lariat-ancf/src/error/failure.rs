@@ -75,6 +75,19 @@ pub enum StepFailure {
     /// A method that the system cannot take.
     #[error("the system has no discrete gradients: use another method")]
     NoDiscreteGradient,
+    /// A step that fails beside an obstacle that was moved by its pose alone.
+    #[error(
+        "{cause}; before this step obstacle {key} was put {distance:.2e} m from where its motion led, as one at rest: one that moves needs its velocity \
+         (`Obstacle::moving`), with which contact meets it in time"
+    )]
+    PosedObstacle {
+        /// Key of the obstacle.
+        key: u64,
+        /// By how far it was moved in m.
+        distance: f64,
+        /// Why the step failed.
+        cause: Box<StepFailure>,
+    },
     /// The matrix of the step is singular.
     #[error("singular step matrix: {0}")]
     Singular(#[from] crate::linalg::SingularMatrix),
@@ -108,12 +121,33 @@ pub enum EquilibriumFailure {
         /// Depth in m.
         depth: f64,
     },
+    /// A reel would slip in the shape that was found: its brake, clutch or free spool holds less
+    /// than the cable pulls.
+    #[error(
+        "the cable pulls {pull:.3e} N at its reel, which holds {largest:.3e} N at most and slips: nothing rests there; give it a larger `max_force`, \
+         or begin without equilibrium"
+    )]
+    Slips {
+        /// Pull at the eye in N, positive outwards.
+        pull: f64,
+        /// Largest force of the reel in N.
+        largest: f64,
+    },
     /// The iteration did not converge.
     #[error("the iteration did not converge")]
     NotConverged,
     /// A force or a matrix of the iteration, or a step of the dynamic relaxation, failed.
     #[error(transparent)]
     Step(#[from] StepFailure),
+}
+
+impl EquilibriumFailure {
+    /// Returns whether it tells of a shape that was found, or that there is none: no other search
+    /// helps.
+    pub(crate) fn is_final(&self) -> bool {
+        use EquilibriumFailure::{NotHeld, Slips, Touches};
+        matches!(self, NotHeld | Touches { .. } | Slips { .. })
+    }
 }
 
 /// What an effect needs of a cable.

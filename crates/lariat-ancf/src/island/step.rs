@@ -33,9 +33,11 @@ pub struct Island {
 /// Coordinates of cables that a step bent, as they were before it.
 #[derive(Clone, Debug, Default)]
 struct Straight {
-    /// With the strain at which they were bent before.
-    cables: Vec<(usize, f64)>,
+    cables: Vec<usize>,
     q: Vec<f64>,
+    /// How many strains at which they were bent before there are of each, and the strains.
+    counts: Vec<usize>,
+    bent_at: Vec<f64>,
 }
 
 impl Straight {
@@ -43,24 +45,29 @@ impl Straight {
     fn bend(&mut self, cables: &mut [&mut Cable]) {
         self.cables.clear();
         self.q.clear();
+        self.counts.clear();
+        self.bent_at.clear();
         for (i, cable) in cables.iter_mut().enumerate() {
             cable.stop_ended();
-            let Some(strut) = cable.loaded_strut() else { continue };
-            self.cables.push((i, cable.snapshot.state.memory.bent_at));
-            self.q.extend(cable.positions());
-            cable.bend_strut(&strut);
+            cable.bend_struts(|cable| {
+                let bent_at = &cable.snapshot.state.memory.bent_at;
+                self.cables.push(i);
+                self.q.extend(cable.positions());
+                self.counts.push(bent_at.len());
+                self.bent_at.extend(bent_at);
+            });
         }
     }
 
     /// Makes them straight again, as a step that failed leaves them.
     fn put_back(&self, cables: &mut [&mut Cable]) {
-        let mut q = self.q.as_slice();
-        for &(i, bent_at) in &self.cables {
+        let (mut q, mut bent_at) = (self.q.as_slice(), self.bent_at.as_slice());
+        for (&i, &count) in self.cables.iter().zip(&self.counts) {
             let State { q: own, memory, .. } = &mut cables[i].snapshot.state;
-            let (first, rest) = q.split_at(own.len());
+            let first = q.split_off(..own.len()).unwrap_or_default();
             own.copy_from_slice(first);
-            memory.bent_at = bent_at;
-            q = rest;
+            memory.bent_at.clear();
+            memory.bent_at.extend(bent_at.split_off(..count).unwrap_or_default());
         }
     }
 }

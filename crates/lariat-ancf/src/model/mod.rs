@@ -10,7 +10,7 @@ use crate::effect::force_density::ForceDensities;
 use crate::effect::potential::Potentials;
 use crate::effect::tables::ElementTables;
 use crate::effect::torsion::stranded::Strands;
-use crate::effect::{Damping, Effects, LineLoads, RestShape, Target};
+use crate::effect::{AxialLaw, Damping, Effects, LineLoads, RestShape, Target};
 use crate::error::{Error, Requirement, require, require_finite};
 use crate::load::PointLoad;
 use crate::obstacle::Obstacles;
@@ -80,6 +80,9 @@ pub struct Model {
     /// Ends of a slack cable, whose tangents are not those of the drawing.
     #[serde(default)]
     pub(crate) drawn: Vec<Drawn>,
+    /// Length of the drawing in m, if it was drawn.
+    #[serde(default)]
+    pub(crate) drawn_length: Option<f64>,
     /// Axial damping time in s that the cable has at least; set by the host, no part of a file.
     #[serde(skip)]
     pub(crate) least_damping: f64,
@@ -225,17 +228,14 @@ impl Model {
     /// Rejects effects that are out of range or that the cable has no numbers for.
     pub(crate) fn check_effects(&self) -> Result<(), Error> {
         self.effects.check(&self.target())?;
-        let stretched = |rest: &RestShape| rest.pieces.iter().any(|piece| piece.stretch != 1.0);
-        if self.effects.axial_law.is_some() && self.effects.rest_shape.as_ref().is_some_and(stretched) {
+        let stretched = RestShape::is_stretched;
+        let has_law = self.effects.axial_law.as_ref().is_some_and(AxialLaw::is_other);
+        if has_law && self.effects.rest_shape.as_ref().is_some_and(stretched) {
             let (cable, effect) = (self.name.clone(), "an axial law");
             return Err(Error::MissingForEffect { cable, effect, requirement: Requirement::RestStretch });
         }
         if self.effects.torsion.as_ref().and_then(Strands::of).is_some() {
-            let problems = [
-                (self.effects.axial_law.is_some(), "an axial law"),
-                (self.effects.rest_shape.as_ref().is_some_and(stretched), "a rest stretch"),
-                (!self.reels.is_empty(), "a reel"),
-            ];
+            let problems = [(has_law, "an axial law"), (!self.reels.is_empty(), "a reel")];
             if let Some((_, what)) = problems.into_iter().find(|(is, _)| *is) {
                 let by = format!("with {what} where tension makes torque: leave out torque_per_tension");
                 return Err(Error::TorsionPlace { cable: self.name.clone(), by });

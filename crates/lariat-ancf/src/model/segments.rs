@@ -21,7 +21,7 @@ impl Model {
             let holds = self.supports.iter().filter(move |(node, support)| self.holds_spin(torsion, *node, support));
             holds.filter_map(move |(node, _)| {
                 let first = before.replace(*node)?;
-                Some(Segment::between(torsion, &self.elements, [first, *node]))
+                Some(Segment::between(torsion, self.effects.rest_shape.as_ref(), &self.elements, [first, *node]))
             })
         })
     }
@@ -57,17 +57,17 @@ impl Model {
     }
 
     fn holds_spin(&self, torsion: &Torsion, node: usize, support: &Support) -> bool {
-        support.slope != SlopeSupport::Free && self.end_spin(torsion, node) != EndSpin::Swivel
+        support.slope != SlopeSupport::Free && *self.end_spin(torsion, node) != EndSpin::Swivel
     }
 
     /// Returns how the spin of a node is held, if that is clamped.
-    pub(crate) fn end_spin(&self, torsion: &Torsion, node: usize) -> EndSpin {
+    pub(crate) fn end_spin<'a>(&self, torsion: &'a Torsion, node: usize) -> &'a EndSpin {
         if node == 0 {
-            torsion.start
+            &torsion.start
         } else if node == self.elements.len() {
-            torsion.end
+            &torsion.end
         } else {
-            EndSpin::Held
+            &torsion.inner
         }
     }
 }

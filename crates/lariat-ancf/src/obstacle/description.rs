@@ -61,6 +61,20 @@ impl Obstacle {
         Obstacle { mount: Some(mount), ..self }
     }
 
+    /// Returns the key and the distance in m if it is elsewhere at a time (s) than its predecessor
+    /// among those before, by ascending key, and is said to be at rest.
+    pub(crate) fn posed(&self, before: &[Obstacle], time: f64) -> Option<(u64, f64)> {
+        let RigidMotion { velocity, angular_velocity, .. } = &self.motion;
+        let rests = self.mount.is_none() && *velocity == Vector3::zeros() && *angular_velocity == Vector3::zeros();
+        let old = before.binary_search_by_key(&self.key, |old| old.key).ok().filter(|_| rests)?;
+        let old = &before[old].motion;
+        if old.position == self.motion.position && old.velocity == Vector3::zeros() {
+            return None;
+        }
+        let distance = (self.motion.pose(time).position - old.pose(time).position).norm();
+        (distance > 0.0).then_some((self.key, distance))
+    }
+
     /// Returns whether a piece at an arc length (m) does not touch it.
     pub(crate) fn excepts(&self, arc_length: f64) -> bool {
         self.except.iter().any(|[from, to]| (*from..=*to).contains(&arc_length))

@@ -74,6 +74,10 @@ pub(crate) const UNBENT: f64 = 0.1;
 /// Half waves of that bend. Unknown: which of them grows fastest depends on the load.
 pub(crate) const WAVES: usize = 8;
 
+/// Share of the Euler load that is left to a span whose angle is that of another one. Derived:
+/// below the three quarters that the other one leaves it.
+pub(crate) const COUPLED: f64 = 0.5;
+
 /// Strain by which an element of a strut is compressed. Derived: beyond rounding.
 pub(crate) const COMPRESSED: f64 = 1e-9;
 

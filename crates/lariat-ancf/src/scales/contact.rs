@@ -37,6 +37,10 @@ pub(crate) const RAMP: f64 = 0.02;
 /// intervals of its samples.
 pub(crate) const CHORDS: usize = 4;
 
+/// Chords of a line that are boxed together between two shapes. Unknown: boxes cost less than
+/// chords.
+pub(crate) const CHUNK: usize = 8;
+
 /// Largest distances of samples in an element. Derived: five points of Lobatto's rule are at most
 /// 0.327 of it apart.
 pub(crate) const SPACINGS: f64 = 3.0;

@@ -48,3 +48,20 @@ pub(crate) const TINY: f64 = 1e-140;
 /// z below which atan(z)/z is its series to the fourth power. Derived: the next term, z^6/7, is
 /// then below the rounding of `f64`.
 pub(crate) const SMALL_TURN: f64 = 2e-3;
+
+/// Least number of points of an axial rule beside which a law of one's own acts. Derived: the
+/// energy of Green's strain is of degree 8 inside an element, which as many integrate exactly.
+pub(crate) const LEAST_POINTS: u8 = 5;
+
+/// Largest angle a in rad that a direction turns by in a part of a change that no step makes.
+/// Derived: a pair within 120 degrees at both ends is within 143 inside, where |c| = tan(143/2
+/// degrees), so the area that it sweeps is below 2 a |c| = 2.3 < pi: the sign of S tells it.
+pub(crate) const LONGEST_PART: f64 = core::f64::consts::FRAC_PI_8;
+
+/// That below which a part that slips is not divided any more. Setting: a pair is then within as
+/// much of 120 degrees.
+pub(crate) const FINEST_PART: f64 = 0.02;
+
+/// Angle in rad by which a twist may differ from that between carried directors. Setting: a
+/// millionth of a radian is none.
+pub(crate) const LOST_TWIST: f64 = 1e-6;

@@ -79,6 +79,19 @@ pub(crate) const SMALL: f64 = 1e-12;
 /// it is on. Unknown: ten times that of gravity; at 5 m/s it takes 0.13 m.
 pub(crate) const STOP: f64 = 100.0;
 
+/// Deceleration in m/s^2 with which a reel that slips comes to the end of its stock. Derived: a
+/// rigid stop, above any rate over any step that a host takes, so that the stretch of the rope
+/// alone brakes what hangs on it.
+pub(crate) const RIGID: f64 = 1e9;
+
+/// Distance in m from the length that a reel is to come to at which it is there. Derived: the
+/// rounding of a length.
+pub(crate) const ARRIVED: f64 = 1e-12;
+
+/// Share of the lengths that a table of rates asks for by which those that its acceleration gives
+/// may differ without a warning. Unknown: as much as a balance may lose.
+pub(crate) const SHORTFALL: f64 = 1e-2;
+
 /// Largest share of an element that passes an eye in a step of an island. Derived: what is left is
 /// no shorter than what passes.
 pub(crate) const LARGEST_SHARE: f64 = 0.5;

@@ -34,8 +34,23 @@ pub(crate) const ROUNDING: f64 = 1e-5;
 /// of 31 elements has it.
 pub(crate) const TURN: f64 = 0.2;
 
-/// Largest tension over EA. Derived: Green's law is 7.5 % above Hooke's there.
+/// Largest tension over EA. Derived: elongations by Green's law are 6.6 % below Hooke's there.
 pub(crate) const STRAIN: f64 = 0.05;
+
+/// Share by which elongations by Green's law may be below those by Hooke's. Setting: what users are
+/// told; 1.5 times the strain, so from 1.35 % on.
+pub(crate) const ELONGATION: f64 = 0.02;
+
+/// Rounds of Newton's iteration for that elongation. Derived: it doubles its digits, from one on.
+pub(crate) const STRAIN_ROUNDS: usize = 5;
+
+/// Largest length of a cable over that of its points. Derived: a slack of 50 m that was meant in
+/// percent makes 50 times the span.
+pub(crate) const SLACK: f64 = 3.0;
+
+/// Largest axial damping time in s. Derived: those of ropes are below 0.1 s, and one in percent of
+/// critical is above it.
+pub(crate) const SLOWEST_STRETCH: f64 = 1.0;
 
 /// Largest rate of a reel over the speed of transverse waves. Derived: the square of it, 9 %, is
 /// what the moving rope adds to its tension.
@@ -94,6 +109,10 @@ pub(crate) const TWIST: f64 = 1.5;
 /// the moment is then 3 % too large (tests, end_reading.rs).
 pub(crate) const LAYER: f64 = 3.0;
 
+/// Length between two points that are held or loaded over `sqrt(EI/T)` from which on each bends by
+/// itself. Derived: the moment at a load between clamps has the factor tanh(5/2) = 0.987.
+pub(crate) const ROOM: f64 = 5.0;
+
 /// Largest error of a moment at a clamp or a load as a share of it. Setting: what users are told.
 pub(crate) const MOMENT: f64 = 0.1;
 
@@ -113,3 +132,7 @@ pub(crate) const FINEST: f64 = 2.0;
 /// Ratio of the lengths of neighbours in a mesh that is advised. Unknown: between 1 and
 /// [`MOST_GROWTH`](super::cable::MOST_GROWTH).
 pub(crate) const GROWTH: f64 = 1.5;
+
+/// Share of a moment about the tangent above which it is told that this does nothing. Unknown: a
+/// tenth of what is asked for.
+pub(crate) const ALONG: f64 = 0.1;

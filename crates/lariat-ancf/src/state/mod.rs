@@ -63,10 +63,10 @@ pub struct Memory {
     /// [`Cable::set_least_damping`](crate::coupling::Coupling::set_least_damping).
     #[serde(default)]
     pub least_damping: f64,
-    /// Mean compressive strain at which a straight cable was bent last; zero since it was under
-    /// tension.
+    /// By free span, the largest compressive strain at which it was bent last, straight as it was;
+    /// zero since it was under tension, or never bent.
     #[serde(default)]
-    pub bent_at: f64,
+    pub bent_at: Vec<f64>,
     /// How many steps host steps took by the discrete gradient.
     #[serde(default)]
     pub pace: Pace,
@@ -93,7 +93,7 @@ impl Default for Memory {
             pairs: Vec::new(),
             torsion: None,
             least_damping: 0.0,
-            bent_at: 0.0,
+            bent_at: Vec::new(),
             pace: Pace::default(),
         }
     }
@@ -151,7 +151,7 @@ impl State {
         self.memory.pairs.clone_from(pairs);
         self.memory.torsion.clone_from(torsion);
         self.memory.least_damping = *least_damping;
-        self.memory.bent_at = *bent_at;
+        self.memory.bent_at.clone_from(bent_at);
         self.memory.pace = *pace;
     }
 

@@ -81,11 +81,13 @@ pub(crate) struct Failure {
     pub cause: Option<StepFailure>,
     /// Largest residual force in N where it ended.
     pub residual: f64,
+    /// The first folded element of a shape that was found, if there was one.
+    pub fold: Option<usize>,
 }
 
 impl Default for Failure {
     fn default() -> Self {
-        Failure { cause: None, residual: f64::NAN }
+        Failure { cause: None, residual: f64::NAN, fold: None }
     }
 }
 

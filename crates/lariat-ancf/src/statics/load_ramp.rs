@@ -122,6 +122,6 @@ impl Cable {
             close = slope < RAMP_ROUNDING || (residual <= tolerance && slope < STAGNATION && slope > 0.5 * before);
             before = slope;
         }
-        Err(Failure { cause, residual })
+        Err(Failure { cause, residual, fold: None })
     }
 }

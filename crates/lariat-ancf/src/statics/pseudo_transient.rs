@@ -174,7 +174,7 @@ impl Minimisation<'_> {
                 Step::Rejected => break,
             }
         }
-        Err(Failure { cause, residual })
+        Err(Failure { cause, residual, fold: None })
     }
 
     /// Evaluates force and matrix at `q`, and returns the residual in N.

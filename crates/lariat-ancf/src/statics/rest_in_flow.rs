@@ -89,6 +89,6 @@ impl Cable {
                 return Ok(EquilibriumReport { iterations: budget.done, residual, stable: true });
             }
         }
-        Err(Failure { cause, residual })
+        Err(Failure { cause, residual, fold: None })
     }
 }

@@ -53,9 +53,7 @@ impl Cable {
     fn step_in_workspace(&mut self, dt: f64, integrator: IntegratorRef<'_>) -> Result<(), Error> {
         self.before.copy_from(&self.snapshot.state);
         self.stop_ended();
-        if let Some(strut) = self.loaded_strut() {
-            self.bend_strut(&strut);
-        }
+        self.bend_struts(|_| {});
         self.refresh_memory();
         self.begin_accounts();
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {

@@ -81,7 +81,9 @@ pub use record::Record;
 pub use runs::Resolution;
 pub use target::{InvalidTarget, Quantity, Target};
 
-use crate::scales::study::{BRANCH, FIRST, KINKS, LAST_FIRST, LEAST, LIMIT, MESHES, MOST_LENGTH, REFINED, SMALL};
+use crate::scales::study::{
+    AGREED, BRANCH, FIRST, KINKS, LAST_FIRST, LEAST, LIMIT, MESHES, MOST_LENGTH, REFINED, SMALL,
+};
 use order::Difference;
 use runs::{Run, Runs, Span};
 use time::{Pilots, Time};
@@ -202,6 +204,8 @@ impl<F> Study<F> {
         // the mesh whose error in time is known, where that of another one may be larger
         let mut confirmed = fine.elements;
         let mut apart_before = None;
+        // the first of the meshes that do not come closer
+        let mut doubted: Option<usize> = None;
         loop {
             // where the error in time is not known, the meshes say from when on
             let left = if time.stuck { 0.6 * error } else { error - time.error };
@@ -258,9 +262,14 @@ impl<F> Study<F> {
                 coarse.record.first_beyond(&fine.record, left / factor)
             };
             let at_limit = (next as f64) < 1.5 * fine.elements as f64;
+            // before meshes resolve a motion several of them may not come closer: one that is so
+            // much finer must agree
+            let is_stuck = order::stuck_for_good(&differences, at_limit);
+            doubted = is_stuck.then(|| doubted.unwrap_or(fine.elements));
+            let agreed = doubted.is_some_and(|first| fine.elements >= AGREED * first);
             let outcome = if proven {
                 Outcome::Proven
-            } else if order::stuck_for_good(&differences, at_limit) || time.stuck && differences.len() > 2 {
+            } else if is_stuck && (agreed || at_limit) || time.stuck && differences.len() > 2 {
                 Outcome::NoConvergence
             } else if at_limit || needed.is_some_and(|n| n > 1.5 * limit as f64) {
                 Outcome::ElementLimit

@@ -54,7 +54,7 @@ pub(crate) use equations::Equations;
 pub(crate) use projection::{project_matrix, project_part, project_vector};
 pub(crate) use reading::{NodeTension, Pull, Reading, missing_at_ends};
 pub use reel::Sheave;
-pub(crate) use reel::{FeedElement, Law, Motor, MotorState, Source, Unknowns, Wheel, Winch, rates};
+pub(crate) use reel::{FeedElement, Law, Motor, MotorState, Source, Unknowns, Wheel, Winch, rates, towards};
 pub(crate) use rigid_motion::{Modes, relative_velocities, solve as solve_semidefinite};
 pub(crate) use step_vectors::StepVectors;
 pub(crate) use torsion::BodyEnd;

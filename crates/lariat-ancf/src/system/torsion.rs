@@ -8,11 +8,14 @@
 //!
 //! Where bodies hold a segment, their spin ([`spin`](crate::effect::torsion::spin)) is part of Phi.
 //!
-//! Phi is advanced by its exact increments from shape to shape as they are evaluated, so each must
-//! be within 120 degrees of the one before: the steps of statics are shorter. The second part of
+//! Phi is advanced by its exact increments from shape to shape as they are evaluated, along great
+//! circles; what slips on the way is counted where the twist is another one for it
+//! ([`check`](crate::effect::torsion::check)). The second part of
 //! the stiffness couples all coordinates of a segment; it enters where equations are solved
 //! ([`rank`](crate::effect::torsion::rank)).
 
+use crate::effect::torsion::check::Check;
+use crate::effect::torsion::curve::Curve;
 use crate::effect::torsion::lengths::Lengths;
 use crate::effect::torsion::rank::RankUpdate;
 use crate::effect::torsion::segment::Segment;
@@ -34,6 +37,7 @@ pub(super) struct StaticSegment {
     pub column: Vec<f64>,
     /// The bodies that hold it.
     ends: [Option<BodyEnd>; 2],
+    check: Check,
 }
 
 /// A body that holds the spin of an end, in statics.
@@ -94,6 +98,7 @@ impl StaticTorsion {
             gradient: Vec::new(),
             column: Vec::new(),
             ends: [None; 2],
+            check: Check::of(&Curve::between(segment.nodes, &model.elements, &state.q)),
         }));
         self.shape.clone_from(&state.q);
         self.in_island = false;
@@ -156,9 +161,12 @@ impl StaticTorsion {
         (own.segment.range(), &own.gradient, own.levers())
     }
 
-    /// Ends, and leaves the twists of the shape of a state in it.
-    pub fn end(&mut self, model: &Model, state: &mut State) {
+    /// Ends, and leaves the twists of the shape of a state in it. Returns how many pairs slipped on
+    /// the way, where a twist is another one for it.
+    pub fn end(&mut self, model: &Model, state: &mut State) -> u64 {
         self.follow(model, &state.q);
+        let curve = |own: &StaticSegment| Curve::between(own.segment.nodes, &model.elements, &state.q);
+        let slips = self.segments.iter().map(|own| own.check.lost(&curve(own))).sum();
         let own: &mut [SegmentTwist] = state.memory.torsion.as_deref_mut().unwrap_or_default();
         for (to, own) in own.iter_mut().zip(&self.segments) {
             (to.twist, to.change) = (own.twist, 0.0);
@@ -169,6 +177,7 @@ impl StaticTorsion {
                 });
             }
         }
+        slips
     }
 
     /// Returns whether nothing acts.
@@ -176,10 +185,10 @@ impl StaticTorsion {
         self.segments.is_empty()
     }
 
-    /// Returns the twist that the curve and the bodies add from the last shape to another.
-    fn change(&self, own: &StaticSegment, model: &Model, q: &[f64]) -> f64 {
-        let step: Vec<f64> = q.iter().zip(&self.shape).map(|(now, then)| now - then).collect();
-        own.segment.change(&Lengths::fixed(&model.elements), &self.shape, &step, &mut Vec::new()).angle + own.spin()
+    /// Returns the twist that the curve adds from the last shape to another, and how many pairs
+    /// slip.
+    fn change(&self, own: &StaticSegment, model: &Model, q: &[f64]) -> (f64, u64) {
+        own.segment.follow(&model.elements, [&self.shape, q])
     }
 
     /// Returns whether a shape is the last one.
@@ -192,9 +201,10 @@ impl StaticTorsion {
         if self.is_empty() || self.is_last(q) {
             return;
         }
-        let changes: Vec<f64> = self.segments.iter().map(|own| self.change(own, model, q)).collect();
+        let changes: Vec<(f64, u64)> = self.segments.iter().map(|own| self.change(own, model, q)).collect();
         for (own, change) in self.segments.iter_mut().zip(changes) {
-            own.twist += change;
+            own.twist += change.0 + own.spin();
+            own.check.follow(&Curve::between(own.segment.nodes, &model.elements, q), change);
             own.ends.iter_mut().flatten().for_each(|end| end.attitude[0] = end.attitude[1]);
         }
         self.shape.copy_from_slice(q);
@@ -203,7 +213,7 @@ impl StaticTorsion {
     /// Returns the energy in J of a shape.
     pub fn energy(&self, model: &Model, q: &[f64]) -> f64 {
         let of = |own: &StaticSegment| {
-            let twist = if self.is_last(q) { own.twist } else { own.twist + self.change(own, model, q) };
+            let twist = if self.is_last(q) { own.twist } else { own.twist + self.change(own, model, q).0 + own.spin() };
             let twist = own.segment.loaded(&model.elements, q, twist);
             0.5 * own.segment.stiffness * twist * twist
         };

@@ -24,10 +24,16 @@ pub struct EnergyLaw {
     pub shortened: f64,
     /// Work of supports that move.
     pub supports: f64,
-    /// Work of point loads.
+    /// Work of point loads, and of the forces on the bodies of an island.
     pub loads: f64,
+    /// Of that, the work of the forces and torques on bodies: gravity, those of the user, and those
+    /// by which an engine's contacts and joints take part.
+    #[serde(default)]
+    pub bodies: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,
+    /// Energy that the friction of sheaves took. Never falls.
+    pub sheaves: f64,
     /// Energy that the inelastic impacts lost by which pinned nodes and their bodies begin a step
     /// with one velocity, where an engine, a user or a collision changed that of the body; of the
     /// methods with accelerations. Never falls.
@@ -46,15 +52,22 @@ pub struct EnergyLaw {
 }
 
 impl EnergyLaw {
+    /// Returns the energy in J that contacts, sheaves and impacts took.
+    pub fn dissipated(&self) -> f64 {
+        self.contacts + self.sheaves + self.impacts
+    }
+
     /// Adds a step.
     pub(crate) fn add(&mut self, step: &Balance) {
-        let [supports, loads, contacts] =
-            [Account::Supports, Account::Loads, Account::Contacts].map(|account| step.of(account));
+        let [supports, loads, contacts, reels] =
+            [Account::Supports, Account::Loads, Account::Contacts, Account::Reels].map(|account| step.of(account));
         self.numerical += step.numerical;
         self.rescaled += step.rescaled;
         self.supports += supports.work + supports.aside;
         self.loads += loads.work;
+        self.bodies += loads.aside;
         self.contacts += contacts.loss + contacts.aside;
+        self.sheaves += reels.aside;
         self.obstacles += contacts.work;
         self.residual += step.residual;
         self.made = self.made.max(step.excess());
@@ -67,7 +80,9 @@ impl EnergyLaw {
         self.shortened += other.shortened;
         self.supports += other.supports;
         self.loads += other.loads;
+        self.bodies += other.bodies;
         self.contacts += other.contacts;
+        self.sheaves += other.sheaves;
         self.impacts += other.impacts;
         self.uncertain += other.uncertain;
         self.obstacles += other.obstacles;
@@ -76,9 +91,12 @@ impl EnergyLaw {
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 11] {
-        let EnergyLaw { numerical, rescaled, shortened, supports, loads, contacts, .. } = *self;
-        let EnergyLaw { impacts, uncertain, obstacles, residual, made, .. } = *self;
-        [numerical, rescaled, shortened, supports, loads, contacts, impacts, uncertain, obstacles, residual, made]
+    pub(crate) fn terms(&self) -> [f64; 13] {
+        let EnergyLaw { numerical, rescaled, shortened, supports, loads, bodies, contacts, .. } = *self;
+        let EnergyLaw { sheaves, impacts, uncertain, obstacles, residual, made, .. } = *self;
+        [
+            numerical, rescaled, shortened, supports, loads, bodies, contacts, sheaves, impacts, uncertain, obstacles,
+            residual, made,
+        ]
     }
 }

@@ -19,7 +19,7 @@ impl CableTerms {
     /// Reads the works on a cable, without its energies.
     pub fn of_works(cable: &Cable) -> Self {
         let (effects, law) = (cable.effect_work(), cable.energy_law());
-        let dissipated = effects.dissipated() + law.contacts + law.impacts;
+        let dissipated = effects.dissipated() + law.dissipated();
         let reels: f64 = cable.reels().map(|reel| reel.work + reel.remeshed).sum();
         // impacts do no work: they take energy
         let of_effects = effects.total() + dissipated - law.impacts;
@@ -52,7 +52,8 @@ impl CableAccount {
         let summed = cable.has_reel() && cable.effects().contact.is_none();
         let by_law = cable.integrator().method.uses_discrete_gradients() && !summed;
         let change = if by_law { terms.by_law - last.terms.by_law } else { terms.sum() - last.terms.sum() };
-        self.balance.dissipated_j += terms.dissipated - last.terms.dissipated;
+        let dissipated = terms.dissipated - last.terms.dissipated;
+        self.balance.dissipated_j += dissipated;
         self.balance.work_j += terms.work - last.terms.work;
         self.note_errors(
             terms.kinetic + terms.strain.abs() + terms.gravity.abs(),
@@ -66,7 +67,7 @@ impl CableAccount {
             weight,
             stiffness,
         };
-        self.balance.add(cable.time(), change, by_law, &sizes);
+        self.balance.add(cable.time(), change, if by_law { dissipated } else { 0.0 }, &sizes);
     }
 }
 

@@ -8,8 +8,14 @@ impl Warning {
     pub fn level(&self) -> Level {
         match self {
             Warning::UntouchedObstacles { .. }
+            | Warning::SlowReel { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
+            | Warning::MuchSlack { .. }
+            | Warning::SlowStretch { .. }
+            | Warning::ThickElements { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::StiffTorsion { .. }
             | Warning::Stubby { .. }
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
@@ -23,8 +29,10 @@ impl Warning {
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
             | Warning::CutShort { .. }
-            | Warning::TwistSlips { .. } => Level::Wrong,
+            | Warning::TwistSlips { .. }
+            | Warning::KinksThroughItself { .. } => Level::Wrong,
             Warning::CoarseMesh { .. }
+            | Warning::GreenStrain { .. }
             | Warning::CoarseMotion { .. }
             | Warning::CoarseElement { .. }
             | Warning::CoarseMoment { .. }
@@ -49,9 +57,14 @@ impl Warning {
             | Warning::CoarseKink { cable, .. }
             | Warning::LongSteps { cable, .. }
             | Warning::LargeStrain { cable, .. }
+            | Warning::GreenStrain { cable, .. }
+            | Warning::MuchSlack { cable, .. }
+            | Warning::SlowStretch { cable, .. }
+            | Warning::ThickElements { cable, .. }
             | Warning::EnergyMade { cable, .. }
             | Warning::EnergyLost { cable, .. }
             | Warning::FastReel { cable, .. }
+            | Warning::SlowReel { cable, .. }
             | Warning::UnseenLoad { cable, .. }
             | Warning::RoundedEnds { cable, .. }
             | Warning::PassedThrough { cable, .. }
@@ -64,6 +77,9 @@ impl Warning {
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
             | Warning::TwistSlips { cable, .. }
+            | Warning::KinksThroughItself { cable, .. }
+            | Warning::MomentAlong { cable, .. }
+            | Warning::StiffTorsion { cable, .. }
             | Warning::Stubby { cable, .. }
             | Warning::Thick { cable, .. }
             | Warning::LightMaterial { cable, .. }
@@ -81,11 +97,12 @@ impl Judged for Warning {
     fn sign(&self) -> Option<Sign> {
         Some(match self {
             Warning::Stubby { .. }
+            | Warning::ThickElements { .. }
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
             | Warning::FastWaves { .. }
             | Warning::SoftMaterial { .. } => Sign::Sizes,
-            Warning::LargeStrain { .. } => Sign::Strain,
+            Warning::LargeStrain { .. } | Warning::GreenStrain { .. } => Sign::Strain,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::PassedThrough { .. } => Sign::Crossing,
@@ -98,11 +115,17 @@ impl Judged for Warning {
             Warning::Sinks { .. } => Sign::Depth,
             Warning::TwistSlips { .. } => Sign::Twist,
             Warning::UntouchedObstacles { .. }
+            | Warning::MuchSlack { .. }
+            | Warning::SlowStretch { .. }
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
             | Warning::IdleTorsion { .. }
+            | Warning::KinksThroughItself { .. }
+            | Warning::MomentAlong { .. }
+            | Warning::StiffTorsion { .. }
             | Warning::FastReel { .. }
+            | Warning::SlowReel { .. }
             | Warning::UnseenLoad { .. }
             | Warning::FrictionLags { .. }
             | Warning::RoundedEnds { .. } => return None,
@@ -117,9 +140,11 @@ impl Judged for Warning {
         match self {
             Warning::LongSteps { time_s, .. }
             | Warning::LargeStrain { time_s, .. }
+            | Warning::GreenStrain { time_s, .. }
             | Warning::EnergyLost { time_s, .. }
             | Warning::FastReel { time_s, .. }
             | Warning::UnseenLoad { time_s, .. }
+            | Warning::MomentAlong { time_s, .. }
             | Warning::RoundedEnds { time_s, .. } => Some(*time_s),
             // energy is made until its time, not from then on
             _ => None,
@@ -134,10 +159,16 @@ impl Judged for Warning {
             Warning::CoarseMoment { moment_nm, elastica_nm, .. } => moment_nm / elastica_nm,
             Warning::CoarseMotion { error_m, displacement_m, .. } => error_m / displacement_m,
             Warning::CoarseElement { turn_rad, .. } | Warning::CoarseContact { turn_rad, .. } => *turn_rad,
-            Warning::LargeStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
+            Warning::LargeStrain { tension_n, axial_stiffness_n, .. }
+            | Warning::GreenStrain { tension_n, axial_stiffness_n, .. } => tension_n / axial_stiffness_n,
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
-            Warning::FastReel { ratio, .. } | Warning::CoarseTwist { ratio, .. } => *ratio,
+            Warning::FastReel { ratio, .. }
+            | Warning::CoarseTwist { ratio, .. }
+            | Warning::StiffTorsion { ratio, .. }
+            | Warning::KinksThroughItself { share: ratio, .. } => *ratio,
+            Warning::MomentAlong { part_nm, .. } => *part_nm,
+            Warning::SlowReel { asked_m, given_m, .. } => (asked_m - given_m).abs(),
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Sinks { share, .. } => *share,
@@ -146,6 +177,9 @@ impl Judged for Warning {
             | Warning::CutShort { steps, .. }
             | Warning::FrictionLags { steps, .. } => *steps as f64,
             Warning::TwistSlips { slips, .. } => *slips as f64,
+            Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,
+            Warning::SlowStretch { axial_s, .. } => *axial_s,
+            Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
             // the more beyond the sizes of cables the smaller the number, or there is none
             Warning::Stubby { ratio, .. } => -ratio,
             Warning::LightMaterial { wave_speed_m_s, .. } | Warning::FastWaves { wave_speed_m_s, .. } => {

@@ -7,8 +7,9 @@
 //! the mesh has it 10 % larger, and bending strains the cable by a tenth of what tension does, `d/2
 //! M/EI = 2 theta sqrt(F/EA)` of a solid round section; the position where it is off by 2e-3 of the
 //! length. Both errors are of first order in the length of the elements beside the point, and in
-//! nothing else: a [graded](crate::CableBuilder::finest) mesh takes them away. Nothing feels the
-//! moment at a load or a held point whose slope is free, and it is not told.
+//! nothing else: a [graded](crate::CableBuilder::finest) mesh takes them away. The moment at a load
+//! or a held point whose slope is free is read as that of the elastica, on every mesh, and there is
+//! nothing to tell of it.
 
 use super::Warning;
 use super::advised::AdvisedMesh;

@@ -30,6 +30,7 @@ mod level;
 mod shock;
 pub mod sizes;
 mod steps;
+mod torsion;
 mod watch;
 mod words;
 
@@ -39,6 +40,7 @@ pub use level::Level;
 pub use shock::Shock;
 pub use words::Interface;
 
+use crate::scales::watch::STRAIN_ROUNDS;
 use serde::{Deserialize, Serialize};
 
 /// A warning about a cable; its text says what to do. It serialises as its fields with `kind`.
@@ -174,6 +176,22 @@ pub enum Warning {
         /// Axial stiffness EA in N.
         axial_stiffness_n: f64,
     },
+    /// The tension is where Green's law, which the cable has by default, is off Hooke's.
+    #[error(
+        "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {percent:.1} % of EA = {axial_stiffness_n:.3e} N: its law (Green's strain) elongates it by {less_percent:.1} % \
+         less than Hooke's: where EA is force over elongation, set `AxialLaw::Hooke`; where Green's law is meant, `AxialLaw::Green`",
+        percent = 100.0 * .tension_n / .axial_stiffness_n, less_percent = 100.0 * less_elongation(.tension_n / .axial_stiffness_n)
+    )]
+    GreenStrain {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest tension in s.
+        time_s: f64,
+        /// Largest tension in N.
+        tension_n: f64,
+        /// Axial stiffness EA in N.
+        axial_stiffness_n: f64,
+    },
     /// Integration makes energy.
     #[error(
         "cable {cable:?}: integration of it, and of what moves with it, makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): {}",
@@ -219,6 +237,23 @@ pub enum Warning {
         time_s: f64,
         /// Rate over the speed of transverse waves.
         ratio: f64,
+    },
+    /// A table of rates asks for changes that the acceleration of the reel does not give.
+    #[error(
+        "cable {cable:?}: the rates of its reel ask for {asked_m:.4} m, and with an acceleration of {acceleration_m_s2:.3} m/s^2 it gives {given_m:.4} m: {rate_m_s:.3} m/s is \
+         not reached before the next row; give it more acceleration, or the rows more time"
+    )]
+    SlowReel {
+        /// Name of the cable.
+        cable: String,
+        /// Length in m that the table asks for.
+        asked_m: f64,
+        /// Length in m that the acceleration gives.
+        given_m: f64,
+        /// Largest rate in m/s that is not reached.
+        rate_m_s: f64,
+        /// Acceleration of the reel in m/s^2.
+        acceleration_m_s2: f64,
     },
     /// Its load may have exceeded what it withstands between two integration steps, and none of
     /// them saw it.
@@ -370,6 +405,81 @@ pub enum Warning {
         /// Number of such turns.
         slips: u64,
     },
+    /// It is several times as long as drawn.
+    #[error(
+        "cable {cable:?}: it is {length_m:.4} m long and drawn over {drawn_m:.4} m, {percent:.0} % of slack: its length is in m; was a share meant?",
+        percent = 100.0 * (.length_m / .drawn_m - 1.0)
+    )]
+    MuchSlack {
+        /// Name of the cable.
+        cable: String,
+        /// Unstretched length in m.
+        length_m: f64,
+        /// Length of its points in m.
+        drawn_m: f64,
+    },
+    /// A damping time that no rope has.
+    #[error(
+        "cable {cable:?}: its axial damping is {axial_s} s: it stretches under a load only within such a time, and is stiff until then; it is the time of Kelvin \
+         and Voigt, not a share of the critical damping; for that of a rope set `CableBuilder::damped_as`"
+    )]
+    SlowStretch {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the axial strain in s.
+        axial_s: f64,
+    },
+    /// Elements that are thicker than long.
+    #[error(
+        "cable {cable:?}: its elements are {element_m:.2e} m long and {diameter_m:.2e} m thick: what bends within the thickness shears, and a cable has no shear; take fewer elements"
+    )]
+    ThickElements {
+        /// Name of the cable.
+        cable: String,
+        /// Length of the shortest elements in m.
+        element_m: f64,
+        /// Outer diameter or side in m.
+        diameter_m: f64,
+    },
+    /// Its torque is one at which it goes into a loop, and it does not touch itself.
+    #[error(
+        "cable {cable:?}: its torque reached {torque_nm:.3e} N m, {share:.2} times that at which it goes into loops under its tension, and it does not touch itself: a loop is \
+         pulled through itself; try `Contact` with itself, more tension, or less twist"
+    )]
+    KinksThroughItself {
+        /// Name of the cable.
+        cable: String,
+        /// Torque in N m.
+        torque_nm: f64,
+        /// `int sqrt(M^2/(4 EI^2) - T/EI) ds/pi`.
+        share: f64,
+    },
+    /// A point moment has a part about the tangent, which does nothing.
+    #[error(
+        "cable {cable:?}: at {time_s:.3} s the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, and that part does nothing, for the spin of a section \
+         between clamps is none of the coordinates: twist an end by a motor of its torsion, or clamp the cable to a body and put the moment on that"
+    )]
+    MomentAlong {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m.
+        at_m: f64,
+        /// Part of the moment about the tangent in N m.
+        part_nm: f64,
+        /// Time in s.
+        time_s: f64,
+    },
+    /// Torsion is stiffer than bending.
+    #[error(
+        "cable {cable:?}: its GJ is {ratio:.3} EI, and of a round section of one material it is EI/(1 + nu), less than EI: check both; right for a section that is wound or \
+         braided against twist"
+    )]
+    StiffTorsion {
+        /// Name of the cable.
+        cable: String,
+        /// GJ/EI.
+        ratio: f64,
+    },
     /// Too short for its thickness.
     #[error(
         "cable {cable:?}: it is {ratio:.3} times as long as thick ({length_m:.4} m, {diameter_m:.3e} m): below 10 its shear is not small, \
@@ -433,6 +543,14 @@ pub enum Warning {
         /// Young's modulus in Pa.
         youngs_modulus_pa: f64,
     },
+}
+
+/// Returns the share by which the elongation at a tension over EA is less by Green's law, `(e +
+/// e^2/2)(1 + e)`, than by Hooke's, e.
+pub(crate) fn less_elongation(share: f64) -> f64 {
+    // from above, where the law is convex
+    let newton = |e: f64, _| e - ((e + 0.5 * e * e) * (1.0 + e) - share) / (1.0 + 3.0 * e + 1.5 * e * e);
+    1.0 - (0..STRAIN_ROUNDS).fold(share, newton) / share
 }
 
 /// Returns what to do about energy that integration makes, with the discrete gradient or without.

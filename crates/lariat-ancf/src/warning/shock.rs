@@ -53,7 +53,7 @@ impl Cable {
     /// [`Error::OutOfRange`] for an arc length beyond the ends.
     pub fn shock(&self, arc_length: f64, jump: &Vector3<f64>, weight: f64) -> Result<Shock, Error> {
         let sample = self.sample(arc_length)?;
-        let (element, _) = self.model.locate(arc_length);
+        let (element, _) = self.model.locate(self.on_cable(arc_length)?);
         let section = self.elements()[element].section;
         let along = jump.dot(&sample.slope) / sample.slope.norm();
         let across = (jump.norm_squared() - along * along).max(0.0).sqrt();

@@ -9,11 +9,13 @@
 //! in Pa; none is faster than 36000 m/s in any solid (Trachenko et al., Sci. Adv. 6 (2020)
 //! eabc8662: fine-structure constant and ratio of masses of electron and proton; diamond has
 //! 18000), and 32 times as fast a wave is where a density in g/cm^3 is read in kg/m^3; the lightest
-//! foams have 10 kg/m^3; the thickest cables are those of suspension bridges (Akashi Kaikyo: 1.12
-//! m) and the thickest pipelines 1.42 m (56 inches).
+//! foams have 10 kg/m^3; a cable of more than three times the length of its points, and a damping
+//! time of more than a second, are probably shares in percent; the thickest cables are those of
+//! suspension bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
 
 use super::Warning;
-use crate::scales::watch::{FASTEST, LIGHTEST, SLENDERNESS, SLOWEST, SOFTEST, THICKEST};
+use crate::effect::Damping;
+use crate::scales::watch::{FASTEST, LIGHTEST, SLACK, SLENDERNESS, SLOWEST, SLOWEST_STRETCH, SOFTEST, THICKEST};
 use crate::section::Section;
 
 /// Returns the warnings about the section and the unstretched length (m) of a cable.
@@ -33,6 +35,24 @@ pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<
     let soft = section.youngs_modulus.filter(|modulus| *modulus < SOFTEST || slow);
     let material = soft.map(|youngs_modulus_pa| Warning::SoftMaterial { cable: name(), youngs_modulus_pa });
     shape.into_iter().chain(material).chain(light)
+}
+
+/// Returns the warning about a length (m) that is several times the drawn one (m).
+pub fn slack(cable: &str, length_m: f64, drawn_m: f64) -> Option<Warning> {
+    (length_m > SLACK * drawn_m).then(|| Warning::MuchSlack { cable: cable.to_string(), length_m, drawn_m })
+}
+
+/// Returns the warning about damping in another measure.
+pub fn damping(cable: &str, damping: &Damping) -> Option<Warning> {
+    let axial_s = damping.axial;
+    (axial_s > SLOWEST_STRETCH).then(|| Warning::SlowStretch { cable: cable.to_string(), axial_s })
+}
+
+/// Returns the warning about elements (m) that are thicker than long, of a cable of a length in m;
+/// one that is short itself is told as such.
+pub fn elements(cable: &str, section: &Section, length_m: f64, element_m: f64) -> Option<Warning> {
+    let diameter_m = section.diameter.filter(|d| *d > element_m && length_m > SLENDERNESS * d)?;
+    Some(Warning::ThickElements { cable: cable.to_string(), element_m, diameter_m })
 }
 
 /// Returns the warning about a material that is lighter than any, or waves that are faster.

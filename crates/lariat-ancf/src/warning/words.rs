@@ -25,7 +25,7 @@ pub enum Interface {
 
 /// By the name in Rust, without arguments, those of scenes and of Python: `{0}` is the first
 /// argument.
-const NAMES: [(&str, [&str; 2]); 10] = [
+const NAMES: [(&str, [&str; 2]); 13] = [
     ("elements", ["elements = {0}", "elements={0}"]),
     (
         "elements.finest",
@@ -37,6 +37,9 @@ const NAMES: [(&str, [&str; 2]); 10] = [
     ("GravityScale", ["gravity_scale = {0}", "GravityScale({0})"]),
     ("Contact", ["contact", "lariat.Contact"]),
     ("Contact::stiffness", ["contact.stiffness", "Contact(stiffness=...)"]),
+    ("AxialLaw::Hooke", ["axial_law = \"hooke\"", "AxialLaw(\"hooke\")"]),
+    ("AxialLaw::Green", ["axial_law = \"green\"", "AxialLaw(\"green\")"]),
+    ("CableBuilder::damped_as", ["damping = { rope = \"wire-rope\" }", "Cable(damped_as=...)"]),
     ("CableSet::add_kink", ["kinks", "kinks of a scene"]),
     ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)"]),
 ];

@@ -122,6 +122,7 @@ impl CableAccount {
         self.balance.work_j += step.work;
         self.note_errors(kinetic + strain.abs() + gravity.abs(), step.uncertain);
         let sizes = Sizes { strain: strain - start.strain, gravity: gravity - start.gravity, ..step.sizes };
-        self.balance.add(time, step.made, step.by_law, &sizes);
+        let excuse = if step.by_law { step.dissipated } else { 0.0 };
+        self.balance.add(time, step.made, excuse, &sizes);
     }
 }

@@ -56,6 +56,13 @@ pub struct Watch {
     /// Largest |M| l/EI of an element.
     #[serde(default)]
     pub(crate) twist: f64,
+    /// Torque in N m of the segment that is nearest to loops, and how many half waves fit in.
+    #[serde(default)]
+    pub(crate) kink: (f64, f64),
+    /// Arc length in m of the moment with the largest part about the tangent, that part in N m, and
+    /// its time in s.
+    #[serde(default)]
+    pub(crate) along: [f64; 3],
     /// Largest force in N that the rounding of what holds it made, and its time in s.
     #[serde(default)]
     pub(crate) noise: (f64, f64),

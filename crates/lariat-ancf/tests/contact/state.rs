@@ -1,7 +1,7 @@
 //! The memory of contacts: snapshots, refused steps, refusals by name, and what an absent contact costs.
 
 use crate::bench::{GRAVITY, rope, run, up, with};
-use lariat_ancf::contact::{Ball, HalfSpace, Obstacle};
+use lariat_ancf::contact::{Ball, HalfSpace, Obstacle, RigidMotion};
 use lariat_ancf::{At, Cable, Contact, Error, Fidelity, Integrator, Method, Section, StepFailure, Vector3};
 
 /// A rope that slides down an incline and sticks in part.
@@ -168,5 +168,31 @@ fn failures_are_typed() {
             ..
         }) => {}
         other => panic!("{other:?}"),
+    }
+}
+
+/// A step that fails beside an obstacle that was moved by its pose alone says so, by its key and how far it was moved; with a velocity, or
+/// where nothing was moved, it does not.
+///
+/// *Source.* The contract.
+#[test]
+fn a_failure_names_an_obstacle_that_was_moved_by_its_pose() {
+    let floor = |height: f64| Obstacle::new(7, HalfSpace { normal: up() }, up() * height, 0.3);
+    let moving = |height: f64| {
+        let floor = floor(height);
+        let motion = RigidMotion { velocity: up() * 3.0, ..floor.motion };
+        floor.moving(motion)
+    };
+    for (next, named) in [(floor(-0.07), true), (floor(-0.1), false), (moving(-0.07), false)] {
+        let mut cable = with(sliding(), vec![floor(-0.1)]);
+        cable.set_obstacles([next]).unwrap();
+        let huge = vec![1e200; cable.positions().len()];
+        let still = vec![0.0; huge.len()];
+        cable.set_coordinates(&huge, &still).unwrap();
+        let Err(Error::StepFailed { failure, .. }) = cable.step(0.01) else { panic!("it steps") };
+        let found =
+            matches!(&failure, StepFailure::PosedObstacle { key: 7, distance, .. } if (distance - 0.03).abs() < 1e-12);
+        assert_eq!(found, named, "{failure}");
+        assert_eq!(failure.to_string().contains("needs its velocity"), named, "{failure}");
     }
 }

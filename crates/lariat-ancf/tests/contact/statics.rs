@@ -62,6 +62,9 @@ fn a_mooring_line_has_the_catenary_with_touchdown() {
         assert!((anchor / (w * a) - 1.0).abs() < 1e-2, "{anchor}");
         assert!((touchdown - (length - s)).abs() < element, "{touchdown}");
         assert!((carried(&cable) / (w * (length - s)) - 1.0).abs() < 2e-2);
+        // Coulomb: friction holds at most mu times the weight that lies
+        let bound = cable.friction_bound() / (0.5 * w * (length - s));
+        assert!((bound - 1.0).abs() < 3e-2, "{bound}");
         let before = cable.energy().total();
         for _ in 0..30 {
             cable.step(1.0 / 60.0).unwrap();
@@ -120,6 +123,10 @@ fn a_rope_over_a_drum_has_one_tension() {
         );
         assert!((left.tension / expected - 1.0).abs() < 5e-3, "{} {expected}", left.tension);
         assert!((carried(&cable) / total - 1.0).abs() < 1e-2);
+        // Euler and Eytelwein: friction of 0.5 holds T (exp(mu theta) - 1), here on half a turn
+        let (bound, most) = (cable.friction_bound(), load * ((0.5 * std::f64::consts::PI).exp() - 1.0));
+        println!("friction holds {bound:.3} N, the capstan {most:.3} N");
+        assert!(bound > 0.95 * most && bound < 1.05 * (most + 8.0 * weight * length), "{bound} N of {most}");
     }
 }
 

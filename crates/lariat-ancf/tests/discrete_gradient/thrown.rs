@@ -3,7 +3,7 @@
 use crate::chain::Chain;
 use crate::law::{energies, work};
 use crate::recipe::{disturb, scene};
-use lariat_ancf::{Method, Rule};
+use lariat_ancf::{AxialLaw, Effects, Method, Rule};
 use std::time::Instant;
 
 /// What a run of many scenes did.
@@ -28,10 +28,18 @@ pub struct Tally {
 
 /// Runs scenes by host steps of 1/60 s for 0.6 s.
 pub fn run(seeds: std::ops::Range<u64>, rule: Rule, longest: f64) -> Tally {
+    run_with(seeds, rule, longest, |_| None)
+}
+
+/// Runs scenes likewise, with the axial law that a stiffness EA (N) makes.
+fn run_with(seeds: std::ops::Range<u64>, rule: Rule, longest: f64, law: impl Fn(f64) -> Option<AxialLaw>) -> Tally {
     let mut tally = Tally::default();
     for seed in seeds {
         let crate::recipe::Scene { mut cable, disturbance, driven } =
             scene(seed, rule, Method::DiscreteGradient, longest);
+        if let Some(law) = law(cable.elements()[0].section.axial_stiffness) {
+            cable.set_effects(Effects { axial_law: Some(law), ..Effects::default() }).unwrap();
+        }
         tally.scenes += 1;
         let (mut largest, mut broken, mut rise, mut rose_from) = (0.0f64, 0.0f64, 0.0f64, f64::INFINITY);
         // the first host step puts supports in place
@@ -137,6 +145,23 @@ fn thrown_cables_make_no_energy_and_none_is_refused() {
     for rule in ["projected-3", "projected-T1", "projected-none", "ST2", "G5-3"] {
         for longest in [1.0 / 60.0, 1.0 / 240.0] {
             check(&format!("{rule}, 1/{:.0} s", 1.0 / longest), &run(seeds(), rule.parse().unwrap(), longest));
+        }
+    }
+}
+
+/// The same with every axial law.
+///
+/// *Source.* As above.
+#[test]
+fn thrown_cables_of_every_axial_law_make_no_energy() {
+    let curve =
+        |axial: f64| AxialLaw::Curve(vec![[-0.02, 0.0], [0.03, 0.01 * axial], [0.1, 0.03 * axial], [0.3, 0.2 * axial]]);
+    let laws: [(&str, &dyn Fn(f64) -> AxialLaw); 3] =
+        [("Hooke", &|_| AxialLaw::Hooke), ("rope", &|_| AxialLaw::Rope), ("curve", &curve)];
+    for (name, law) in laws {
+        for longest in [1.0 / 60.0, 1.0 / 240.0] {
+            let tally = run_with(seeds(), "projected-3".parse().unwrap(), longest, |axial| Some(law(axial)));
+            check(&format!("{name}, 1/{:.0} s", 1.0 / longest), &tally);
         }
     }
 }

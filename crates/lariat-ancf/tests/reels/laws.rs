@@ -87,6 +87,11 @@ impl Hoist {
         Ok([before - self.bodies[0].velocity.y, expected])
     }
 
+    /// Returns how far in m the load is below the eye.
+    pub fn below(&self) -> f64 {
+        -self.bodies[0].position.y
+    }
+
     /// Returns the energy in J of cable and load less all work on them.
     pub fn account(&self) -> f64 {
         let reel = self.cable.reel(At::End).unwrap();

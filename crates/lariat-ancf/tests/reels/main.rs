@@ -1,5 +1,6 @@
 //! Reels at the ends of a cable.
 
+mod asked;
 mod both_ends;
 mod common;
 mod drums;

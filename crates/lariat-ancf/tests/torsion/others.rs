@@ -2,8 +2,8 @@
 
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{
-    At, Cable, CableBuilder, Contact, Damping, Effects, EndSpin, Error, Fidelity, Integrator, Method, Section,
-    StepControl, Torsion, Vector3, Warning,
+    At, Cable, CableBuilder, Contact, Damping, Effects, EndSpin, Error, Fidelity, Integrator, Method, PointLoad,
+    Section, StepControl, Torsion, Vector3, Warning,
 };
 
 fn twisted(turns: f64) -> Torsion {
@@ -99,7 +99,7 @@ fn bad_numbers_are_refused() {
         motor(f64::NAN, 0.0, 1.0),
         motor(1.0, 2.0, 1.0),
     ] {
-        let error = clamped(Some(torsion)).build().unwrap_err();
+        let error = clamped(Some(torsion.clone())).build().unwrap_err();
         assert!(matches!(error, Error::InvalidValue { .. }), "{torsion:?}: {error}");
     }
     assert!(Torsion::round(1.0, 0.6).is_err() && Torsion::round(1.0, -1.0).is_err());
@@ -289,4 +289,181 @@ fn a_painted_line_shows_the_twist() {
     assert!((line(&cable, &[cable.length()])[0] - before).norm() < 1e-9, "the last clamp stands still");
     let free = slack(Some(twisted(0.2))).clamp(At::Start).build().unwrap();
     assert_eq!(free.stripe(&[0.0, 0.5]).unwrap(), [None, None]);
+}
+
+/// Coordinates that a program changes in one call twist the cable as in many along the same great
+/// circles; what turns too far is counted, and told.
+///
+/// *Source.* The area of a geodesic quadrilateral is the sum of those of its parts.
+#[test]
+fn coordinates_that_are_set_twist_as_in_parts() {
+    let mut cable = clamped(Some(twisted(0.5))).build().unwrap();
+    run(&mut cable, 20);
+    let start = cable.snapshot().clone();
+    let q0 = cable.positions().to_vec();
+    let vector = |q: &[f64], at: usize| Vector3::new(q[at], q[at + 1], q[at + 2]);
+    let length = |e: usize| cable.elements()[e].length;
+    let lengths: Vec<f64> = (0..8).map(length).collect();
+    // slopes of nodes and of the middles, which positions follow
+    let nodes: Vec<Vector3<f64>> = (0..9).map(|n| vector(&q0, 6 * n + 3)).collect();
+    let middles: Vec<Vector3<f64>> = (0..8)
+        .map(|e| (vector(&q0, 6 * e + 6) - vector(&q0, 6 * e)) * (1.5 / lengths[e]) - (nodes[e] + nodes[e + 1]) * 0.25)
+        .collect();
+    let axis = Vector3::new(0.1, 0.8, 0.5);
+    let turned = |d: &Vector3<f64>, angle: f64| {
+        let across = (axis - d * (axis.dot(d) / d.norm_squared())).normalize();
+        nalgebra::UnitQuaternion::from_scaled_axis(across * angle) * d
+    };
+    let at = |angle: f64, folded: f64| {
+        let (mut r, mut q) = (vector(&q0, 0), Vec::new());
+        for n in 0..9 {
+            let of = |n: usize| turned(&nodes[n], if n == 4 { folded } else { angle });
+            q.extend(r.iter().chain(of(n).iter()));
+            if n < 8 {
+                r += (turned(&middles[n], angle) + (of(n) + of(n + 1)) * 0.25) * (lengths[n] / 1.5);
+            }
+        }
+        q
+    };
+    let set = |cable: &mut Cable, parts: u32, degrees: f64, folded: f64| {
+        cable.restore(start.clone()).unwrap();
+        cable.diagnostics_mut().reset();
+        for k in 1..=parts {
+            let share = f64::from(k) / f64::from(parts);
+            let q = at(degrees.to_radians() * share, folded.to_radians() * share);
+            cable.set_coordinates(&q, &vec![0.0; q.len()]).unwrap();
+        }
+        (cable.torsion()[0].twist, cable.diagnostics().twist_slips)
+    };
+    for degrees in [60.0, 150.0, 175.0] {
+        let [once, twice, often] = [1, 2, 40].map(|parts| set(&mut cable, parts, degrees, degrees));
+        println!("{degrees}: {once:?} {twice:?} {often:?}");
+        assert!((once.0 - often.0).abs() < 1e-12 && (twice.0 - often.0).abs() < 1e-12);
+        assert_eq!([once.1, twice.1, often.1], [0; 3]);
+    }
+    assert!(set(&mut cable, 1, 0.0, 170.0).1 > 0);
+    assert!(cable.warnings().iter().any(|w| matches!(w, Warning::TwistSlips { .. })), "{:?}", cable.warnings());
+}
+
+/// A moment about the tangent of a bent cable does nothing, and that is told, with torsion and
+/// without; not of one across, nor of one that a clamp takes.
+///
+/// *Source.* The virtual work of a moment on a section is that on the rotation of its tangent; the
+/// slope in the middle of the sag is along x.
+#[test]
+fn a_moment_about_the_tangent_is_told() {
+    let told = |torsion: Option<Torsion>, at: f64, moment: Vector3<f64>| {
+        let mut cable = clamped(torsion).build().unwrap();
+        cable.add_load(PointLoad::moment(at * cable.length(), moment)).unwrap();
+        let now = cable.warnings();
+        cable.set_watched(true);
+        run(&mut cable, 10);
+        let along = |warnings: Vec<Warning>| {
+            warnings
+                .into_iter()
+                .find_map(|w| if let Warning::MomentAlong { part_nm, .. } = w { Some(part_nm) } else { None })
+        };
+        let [now, then] = [now, cable.warnings()].map(along);
+        assert_eq!(now.is_some(), then.is_some(), "{now:?} {then:?}");
+        now
+    };
+    let swivel = Torsion { end: EndSpin::Swivel, ..twisted(0.0) };
+    for torsion in [None, Some(twisted(0.5))] {
+        let part = told(torsion.clone(), 0.5, Vector3::new(0.05, 0.0, 0.02)).unwrap();
+        assert!((part - 0.05).abs() < 1e-6, "{part}");
+        assert_eq!(told(torsion.clone(), 0.5, Vector3::new(0.0, 0.0, 0.05)), None);
+        assert_eq!(told(torsion, 1.0, Vector3::new(0.05, 0.0, 0.0)), None);
+    }
+    assert!(told(Some(swivel), 1.0, Vector3::new(0.05, 0.0, 0.0)).is_some());
+}
+
+/// A torque at which a straight cable goes into a loop is told where it does not touch itself.
+///
+/// *Source.* Greenhill 1883: `(M/2EI)^2 - T/EI = (pi/L)^2` with EI = 1, T = 30 N, L = 1 m.
+#[test]
+fn a_cable_that_kinks_through_itself_is_told() {
+    let critical = 2.0 * (30.0 + std::f64::consts::PI.powi(2)).sqrt();
+    let warnings = |torque: f64, contact: Option<Contact>| {
+        let torsion = Some(Torsion { initial_twist: torque / (0.7 * std::f64::consts::TAU), ..Torsion::new(0.7) });
+        let mut cable = Cable::builder()
+            .points([Vector3::zeros(), Vector3::x()])
+            // EA times the Green strain, over the stretch
+            .length(1.0 - 30.0 / 1e7)
+            .section(Section::from_stiffness(1e7, 1.0, 0.1).unwrap())
+            .elements(16)
+            .gravity(Vector3::zeros())
+            .effects(Effects { torsion, contact, ..Effects::default() })
+            .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
+            .clamp(At::Start)
+            .clamp(At::End)
+            .build()
+            .unwrap();
+        cable.step(1e-4).unwrap();
+        cable.warnings().into_iter().find(|w| matches!(w, Warning::KinksThroughItself { .. }))
+    };
+    let Some(Warning::KinksThroughItself { torque_nm, share, .. }) = warnings(1.2 * critical, None) else {
+        panic!("it is not told");
+    };
+    let expected = (0.25 * (1.2 * critical).powi(2) - 30.0).sqrt() / std::f64::consts::PI;
+    assert!((torque_nm / (1.2 * critical) - 1.0).abs() < 1e-5, "{torque_nm}");
+    assert!((share / expected - 1.0).abs() < 1e-4, "{share} {expected}");
+    assert!(warnings(1.01 * critical, None).is_some() && warnings(0.99 * critical, None).is_none());
+    let contact = Contact { radius: Some(0.01), ..Contact::default() };
+    assert!(warnings(1.2 * critical, Some(contact)).is_some());
+    assert!(warnings(1.2 * critical, Some(Contact { itself: true, ..contact })).is_none());
+}
+
+/// GJ above EI is told, but of a stranded rope.
+///
+/// *Source.* GJ = EI/(1 + nu) of a round section of one material.
+#[test]
+fn torsion_that_is_stiffer_than_bending_is_told() {
+    let told = |torsion: Torsion| {
+        let cable = clamped(Some(torsion)).build().unwrap();
+        cable.warnings().iter().any(|w| matches!(w, Warning::StiffTorsion { .. }))
+    };
+    assert!(told(Torsion::new(0.0301)) && !told(Torsion::new(0.03)));
+    assert!(!told(Torsion::round(0.03, 0.0).unwrap()) && !told(Torsion::stranded(0.04, 0.1, 0.01)));
+}
+
+/// A weightless straight rod of 1 m with clamps at both ends and at 0.25 m, which spin as `inner`
+/// says.
+fn held_between(inner: EndSpin, turns: f64) -> Cable {
+    let torsion = Torsion { inner, initial_twist: turns, ..Torsion::new(0.02) };
+    Cable::builder()
+        .points([Vector3::zeros(), Vector3::x()])
+        .section(Section::from_stiffness(1e4, 0.03, 0.1).unwrap())
+        .elements(8)
+        .gravity(Vector3::zeros())
+        .effects(Effects { torsion: Some(torsion), ..Effects::default() })
+        .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
+        .clamp(At::Start)
+        .clamp(At::Node(2))
+        .clamp(At::End)
+        .build()
+        .unwrap()
+}
+
+/// A swivel between two clamps lets the torque through; a motor there twists one side and turns the
+/// other back, and its work is the energy of both.
+///
+/// *Source.* GJ times the angle over the length, by hand.
+#[test]
+fn a_clamp_between_can_be_a_swivel_or_a_motor() {
+    let mut through = held_between(EndSpin::Swivel, 0.5);
+    run(&mut through, 10);
+    let [only] = through.torsion()[..] else { panic!("{:?}", through.torsion()) };
+    assert_eq!(only.nodes, [0, 8]);
+    assert!((only.torque - 0.02 * std::f64::consts::PI).abs() < 1e-12, "{only:?}");
+    let mut turned = held_between(EndSpin::Motor { rate: 0.2, from: 0.0, until: 0.5 }, 0.0);
+    run(&mut turned, 60);
+    let [left, right] = turned.torsion()[..] else { panic!("{:?}", turned.torsion()) };
+    let angle = 0.1 * std::f64::consts::TAU;
+    println!("{left:?} {right:?}");
+    assert!((left.torque - 0.02 * angle / 0.25).abs() < 1e-12 && (right.torque + 0.02 * angle / 0.75).abs() < 1e-12);
+    let energy = 0.5 * 0.02 * angle * angle * (1.0 / 0.25 + 1.0 / 0.75);
+    assert!((turned.energy().torsion - energy).abs() < 1e-12);
+    let law = *turned.energy_law();
+    let work = law.supports - law.numerical - law.rescaled + law.residual;
+    assert!((work - energy - turned.energy_in_store()).abs() < 1e-10, "{law:?} {energy}");
 }

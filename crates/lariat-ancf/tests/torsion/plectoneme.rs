@@ -48,8 +48,8 @@ fn torque_of(tension: f64, r: f64) -> f64 {
 
 /// A cable that a motor winds up by five turns coils on itself: torque and tension are those of a
 /// plectoneme within a tenth, no step makes energy, and the energy law closes with the work of the
-/// motor to a hundredth. With 20 turns (the long run) strands pass through each other in 8 steps of
-/// 5760, as the first loop snaps into two strands, which is told.
+/// motor to a hundredth. With 20 turns (the long run) the torque is within 15 %, and strands pass
+/// through each other in 8 steps of 5760, as the first loop snaps into two strands, which is told.
 ///
 /// *Source.* The energy law; Clauvelin, Audoly & Neukirch, Biophys. J. 96 (2009) 3716: the energy of
 /// two helices of radius r that touch, at given tension and torque, against that of a straight rod; r
@@ -84,8 +84,9 @@ fn a_wound_up_cable_coils_on_itself() {
     assert_eq!(told, crossed > 0, "{crossed}: {warnings:?}");
     assert!(law.made <= 1e-6 * law.supports.abs(), "{law:?}");
     assert!(off.abs() < 1e-2 * law.supports.abs(), "{off:e}, {law:?}");
-    // of a coil whose strands went through each other the theory does not speak
-    let is_coil = radius > 0.7 * RADIUS && radius < RADIUS && (torque / expected - 1.0).abs() < 0.1;
-    assert!(is_coil || crossed > 0, "{radius} m, {torque} {expected}");
+    // measured: 6.1 % at 5 turns, 11.7 % at 20
+    let share = if long { 0.15 } else { 0.1 };
+    let is_coil = radius > 0.7 * RADIUS && radius < RADIUS && (torque / expected - 1.0).abs() < share;
+    assert!(is_coil, "{radius} m, {torque} {expected}");
     assert!(long || crossed == 0);
 }

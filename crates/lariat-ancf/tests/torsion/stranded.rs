@@ -32,7 +32,12 @@ fn rope(effects: Effects) -> CableBuilder {
 
 /// Such a rope at rest with a load at its end, whose spin is held or not.
 fn loaded(turns: f64, held: bool) -> Cable {
-    let effects = Effects { torsion: Some(torsion(turns)), ..Effects::default() };
+    loaded_with(turns, held, None)
+}
+
+/// That of a shape without stress.
+fn loaded_with(turns: f64, held: bool, rest_shape: Option<RestShape>) -> Cable {
+    let effects = Effects { torsion: Some(torsion(turns)), rest_shape, ..Effects::default() };
     let mut cable = rope(effects).build().unwrap();
     if held {
         let slope = SlopeSupport::Direction(-Vector3::y());
@@ -90,6 +95,52 @@ fn a_held_hook_gets_the_torque_of_its_load() {
         // of the support on the rope, whose axis points down
         assert!((reaction.moment.y - torque).abs() < 1e-6 * FACTOR * LOAD, "{reaction:?} {torque}");
     }
+}
+
+/// A rope that is held at its length with a stress-free stretch below 1 is under the tension of
+/// the rest, and its torque is that of this tension; under its load it is shorter by it. Its motion
+/// keeps the energy law, and its statics are those of motion.
+///
+/// *Source.* By hand: T = EA (eps - eps0 + k tau) over the stretch, eps0 = (f0^2 - 1)/2.
+#[test]
+fn a_rest_stretch_pulls_and_turns() {
+    let rest = 0.999;
+    let shape = Some(RestShape::stretched(rest));
+    let built = |turns: f64| {
+        let effects = Effects { torsion: Some(torsion(turns)), rest_shape: shape.clone(), ..Effects::default() };
+        rope(effects).clamp(At::End).build().unwrap()
+    };
+    let tension = -AXIAL * 0.5 * (rest * rest - 1.0);
+    for turns in [0.0, 0.1] {
+        let of_twist = turns * TAU / 2.0;
+        let mut held = built(turns);
+        held.equilibrium().unwrap();
+        let (reading, sample) = (held.torsion()[0], held.sample(0.9).unwrap());
+        let pull = tension + AXIAL * FACTOR * of_twist;
+        println!("{reading:?} {sample:?}");
+        assert!((sample.tension / pull - 1.0).abs() < 1e-9, "{} {pull}", sample.tension);
+        let torque = FACTOR * pull + STIFFNESS * of_twist;
+        assert!((reading.torque / torque - 1.0).abs() < 1e-9, "{reading:?} {torque}");
+        let energy = 2.0 * (0.5 * pull * pull / AXIAL + 0.5 * STIFFNESS * of_twist * of_twist);
+        assert!((held.energy().total() / energy - 1.0).abs() < 1e-9, "{:?} {energy}", held.energy());
+        assert!((held.reactions().unwrap()[0].force.y / pull - 1.0).abs() < 1e-9);
+    }
+    let mut cable = loaded_with(0.0, true, shape.clone());
+    let (stretch, over) = pull(&cable);
+    let strain = 0.5 * (stretch * stretch - rest * rest);
+    assert!((AXIAL * strain / over - 1.0).abs() < 1e-6, "{strain}");
+    assert!((cable.torsion()[0].torque / (FACTOR * over) - 1.0).abs() < 1e-6);
+    // let go, it swings
+    cable.clear_loads();
+    let total = |cable: &Cable| cable.energy().total() + cable.energy_in_store();
+    let (first, law) = (total(&cable), *cable.energy_law());
+    for _ in 0..20 {
+        cable.step(1.0 / 60.0).unwrap();
+    }
+    let now = *cable.energy_law();
+    let right = |law: &lariat_ancf::integrate::EnergyLaw| law.supports - law.numerical - law.rescaled + law.residual;
+    let off = total(&cable) - first - (right(&now) - right(&law));
+    assert!(off.abs() < 1e-9 * first && first > 1e-3, "{off:e} of {first}");
 }
 
 /// The limit of a rope is compared with the tension that it carries, that of its torque included.
@@ -159,21 +210,19 @@ fn statics_are_the_end_of_damped_motion() {
 #[test]
 fn what_tension_that_makes_torque_does_not_go_with_is_refused() {
     let stranded = torsion(0.0);
-    let torsion = Some(stranded);
+    let torsion = || Some(stranded.clone());
     let told = |error: Error| {
         assert!(matches!(error, Error::TorsionPlace { .. }), "{error}");
         assert!(error.to_string().contains("torque_per_tension"), "{error}");
     };
-    let rest_shape = Some(RestShape::stretched(0.99));
-    told(rope(Effects { torsion, axial_law: Some(AxialLaw::Rope), ..Effects::default() }).build().unwrap_err());
-    told(rope(Effects { torsion, rest_shape, ..Effects::default() }).build().unwrap_err());
+    told(rope(Effects { torsion: torsion(), axial_law: Some(AxialLaw::Rope), ..Effects::default() }).build().unwrap_err());
     let curved = Some(RestShape::curved(0.5));
-    rope(Effects { torsion, rest_shape: curved, ..Effects::default() }).build().unwrap();
-    let mut cable = rope(Effects { torsion, ..Effects::default() }).build().unwrap();
+    rope(Effects { torsion: torsion(), rest_shape: curved, ..Effects::default() }).build().unwrap();
+    let mut cable = rope(Effects { torsion: torsion(), ..Effects::default() }).build().unwrap();
     told(cable.add_reel(At::End, Reel::default()).unwrap_err());
     let mut cable = rope(Effects::default()).build().unwrap();
     cable.add_reel(At::End, Reel::default()).unwrap();
-    told(cable.set_effects(Effects { torsion, ..Effects::default() }).unwrap_err());
-    let broken = Torsion { torque_per_tension: f64::NAN, ..stranded };
+    told(cable.set_effects(Effects { torsion: torsion(), ..Effects::default() }).unwrap_err());
+    let broken = Torsion { torque_per_tension: f64::NAN, ..stranded.clone() };
     assert!(rope(Effects { torsion: Some(broken), ..Effects::default() }).build().is_err());
 }

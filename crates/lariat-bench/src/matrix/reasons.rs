@@ -11,6 +11,14 @@ pub fn reason(pair: Pair) -> Option<&'static str> {
         _ if both(&[Feature::Drag, Feature::Current, Feature::Water]) => Some("a cable is in one fluid"),
         _ if both(&[Feature::Game, Feature::Engineering, Feature::Adaptive]) => Some("a cable has one integrator"),
         _ if both(&[Feature::Torsion, Feature::Stranded]) => Some("a cable has one law of torsion"),
+        _ if pair.has(Feature::Stranded)
+            && both(&[Feature::Stranded, Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) =>
+        {
+            Some("a cable has one axial law, and that of a stranded rope has its twist in it")
+        }
+        _ if pair.has(Feature::Stranded) && pair.both().iter().any(winds) => Some(
+            "a stranded rope is wound up with the twist of its load and gives it back, and stock has no memory of twist",
+        ),
         // it has added mass
         _ if pair.has(Feature::Buoyancy) && pair.both().iter().any(winds) => {
             Some("added mass acts along a cable as across it, and what comes out along itself moves no fluid")

@@ -10,7 +10,7 @@
 //!
 //! Asking whether the cable is awake: a cable that woke too late would pass.
 
-use super::draft::{Draft, Hold, Kind, Wound, varying, water};
+use super::draft::{Draft, Hold, Kind, LENGTH, Wound, varying, water};
 use super::feature::Feature;
 use super::laws::{Ended, STEP, apart};
 use super::scene::{Fault, Scene};
@@ -24,6 +24,8 @@ use lariat_rapier::CableHandle;
 const CHANGE: f64 = 6.0;
 /// Time in s that is run from then on.
 const AFTER: f64 = 0.75;
+/// Moment of inertia in kg m^2 of the weight, a cube of 8 cm: m a^2/6.
+const INERTIA: f64 = 0.25 * 0.08 * 0.08 / 6.0;
 /// Largest difference in m of the world that may sleep: what sleep leaves out is slower than
 /// 2 mm/s, for this time.
 const DIFFERENCE: f64 = 2e-3 * AFTER;
@@ -67,6 +69,12 @@ fn draft(feature: Feature) -> Draft {
         let damping = draft.effects.damping.take();
         draft.effects = lariat_ancf::Effects { damping, ..Default::default() };
     }
+    // a weight that turns on its rope rests soonest if its damping is critical
+    draft
+        .effects
+        .torsion
+        .iter_mut()
+        .for_each(|torsion| torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt());
     if matches!(feature, Feature::Break | Feature::Prescribed) {
         draft.strength = None;
         draft.start = Hold::World;

@@ -145,7 +145,7 @@ impl Recorder<'_> {
 /// [`Error::Output`] if the folder cannot be written, before anything is measured. Sections that
 /// fail are in [`Report::failures`].
 pub fn run(out: &Path, options: &Options, progress: &mut dyn FnMut(Progress<'_>)) -> Result<Report, Error> {
-    page::create_folder(out)?;
+    page::create_folder(out, "README.md", "Accuracy against cost")?;
     let report = Report { machine: machine::line(), ..Report::default() };
     let mut recorder = Recorder { out, options, progress, begun: Instant::now(), report };
     let plain = |section: Result<Section, Error>| section.map(|section| (section, ()));

@@ -3,9 +3,10 @@
 use super::common::{bits, cable_of, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::CableFailed;
-use lariat_bevy::lariat_ancf::{Error, PointLoad, RestPiece, Vector3};
+use lariat_bevy::lariat_ancf::{self, Error, PointLoad, RestPiece, Vector3};
 use lariat_bevy::{
-    Bending, Buoyancy, Damping, Diagnostics, Drag, GravityScale, LineLoads, PointLoads, RestShape, Rule,
+    At, Attachment, Bending, Buoyancy, Damping, Diagnostics, Drag, GravityScale, LineLoads, PointLoads, RestShape,
+    Rule, Torsion,
 };
 
 /// Runs host steps and returns the counters of all cables in them.
@@ -174,4 +175,31 @@ fn a_cable_without_bending_stiffness_is_damped_along_its_axis_alone() {
     // a time that is not a number stays an error
     let wrong = world.spawn(damped(Damping::time(f64::NAN))).id();
     assert!(world.resource::<lariat_bevy::Cables>().get(wrong).is_err());
+}
+
+/// Torsion acts while its component is there: a quarter of a turn of 1 m between clamps has the
+/// torque GJ times the twist, a changed component counts from the next step on, and without it there
+/// is none.
+///
+/// *Source.* M = GJ Phi/L; the turns of the motor.
+#[test]
+fn torsion_is_a_component() {
+    let mut world = world();
+    let own = |turns: f64| lariat_ancf::Torsion { initial_twist: turns, ..lariat_ancf::Torsion::new(0.02) };
+    let cable = world.spawn((soft([0.0; 3], [0.0, -1.0, 0.0]), Bending, Torsion(own(0.25)))).id();
+    world.spawn(Attachment::clamp(cable, At::Start).to_world());
+    world.spawn(Attachment::clamp(cable, At::End).to_world());
+    steps(&mut world, 2);
+    let torque = |world: &World| cable_of(world, cable).torsion().first().map(|reading| reading.torque);
+    let exact = 0.02 * 0.5 * core::f64::consts::PI;
+    assert!((torque(&world).unwrap() / exact - 1.0).abs() < 1e-6, "{:?} of {exact}", torque(&world));
+    // a motor that has turned the end on by half a turn, to three quarters in all
+    let until = cable_of(&world, cable).time() + 0.25;
+    let motor = lariat_ancf::EndSpin::Motor { rate: 2.0, from: until - 0.25, until };
+    world.entity_mut(cable).insert(Torsion(lariat_ancf::Torsion { end: motor, ..own(0.25) }));
+    steps(&mut world, 60);
+    assert!((torque(&world).unwrap() / exact - 3.0).abs() < 1e-6, "{:?} of {}", torque(&world), 3.0 * exact);
+    world.entity_mut(cable).remove::<Torsion>();
+    steps(&mut world, 1);
+    assert_eq!(torque(&world), None);
 }

@@ -3,8 +3,8 @@
 use super::common::{cable_of, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::CableBroken;
-use lariat_bevy::lariat_ancf::Vector3;
-use lariat_bevy::{At, Attachment, BreakTension, RopeMesh, RopeVertices};
+use lariat_bevy::lariat_ancf::{self, Vector3};
+use lariat_bevy::{At, Attachment, Bending, BreakTension, RopeMesh, RopeVertices, Torsion};
 use std::collections::HashMap;
 
 const RADIUS: f64 = 0.02;
@@ -67,6 +67,36 @@ fn the_frame_of_a_plane_curve_does_not_twist() {
     let rings = &first[..8 * 4 + 1];
     assert!(rings.iter().all(|x| (x - rings[0]).abs() < 1e-5), "{rings:?}");
     assert!(vertices.normals.iter().all(|n| (vector(*n).norm() - 1.0).abs() < 1e-6));
+}
+
+/// The surface of a twisted cable turns with it, from ring to ring by the same angle, also where it
+/// is straight and only its twist changes.
+///
+/// *Source.* The twist of the cable between its clamps, less that of before.
+#[test]
+fn the_surface_of_a_twisted_cable_turns_with_it() {
+    let mut world = world();
+    let motor = lariat_ancf::EndSpin::Motor { rate: 0.5, from: 0.0, until: 0.5 };
+    let torsion = lariat_ancf::Torsion { end: motor, ..lariat_ancf::Torsion::new(0.02) };
+    let mesh = RopeMesh::new(RADIUS).sides(SIDES);
+    let rope = (soft([0.0; 3], [0.0, -2.0, 0.0]).elements(8), Bending, Torsion(torsion), mesh);
+    let cable = world.spawn(rope).id();
+    world.spawn(Attachment::clamp(cable, At::Start).to_world());
+    world.spawn(Attachment::clamp(cable, At::End).to_world());
+    let turned = |world: &World| {
+        let normals = &world.get::<RopeVertices>(cable).unwrap().normals;
+        let rings: Vec<Vector3<f64>> =
+            normals[SIDES + 1..].iter().step_by(SIDES + 1).take(8 * 4 + 1).map(|n| vector(*n)).collect();
+        // about the direction of arc length, -y
+        let angle = |a: &Vector3<f64>, b: &Vector3<f64>| (-a.cross(b).y).atan2(a.dot(b));
+        rings.windows(2).map(|pair| angle(&pair[0], &pair[1])).collect::<Vec<f64>>()
+    };
+    for count in [10, 40] {
+        steps(&mut world, count);
+        let (own, twist) = (turned(&world), cable_of(&world, cable).torsion()[0].twist);
+        assert!(twist > 0.1, "{twist}");
+        assert!(own.iter().all(|angle| (angle - twist / 32.0).abs() < 1e-5), "{twist}: {own:?}");
+    }
 }
 
 #[test]

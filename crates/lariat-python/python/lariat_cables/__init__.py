@@ -28,7 +28,7 @@ from lariat_cables._lariat import (
 )
 from lariat_cables.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
 from lariat_cables.contact import Obstacle
-from lariat_cables.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, RestPiece, RestShape, Torsion
+from lariat_cables.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, MotorCourse, RestPiece, RestShape, Torsion
 from lariat_cables.errors import Error
 from lariat_cables.exchange import EndMotion, Exchange, Exchanged
 from lariat_cables.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
@@ -59,6 +59,7 @@ __all__ = [
     "Integrator",
     "LineLoad",
     "Motor",
+    "MotorCourse",
     "Node",
     "Obstacle",
     "PrismaticJoint",

@@ -65,6 +65,15 @@ class Motor:
 
 
 @dataclass(frozen=True)
+class MotorCourse:
+    """A motor that turns the spin of a clamped end by a course."""
+
+    rows: Sequence[Sequence[float]]
+    """``[[time in s, turns], ...]``, times ascending; turns are right-handed about the cable in the direction of arc length. Between rows the
+    rate is continuous (cubics), and zero between equal ones; before the first row and behind the last it holds."""
+
+
+@dataclass(frozen=True)
 class Torsion:
     """Torsion: one torque between two clamps that hold the spin. Needs the integrator "discrete-gradient"."""
 
@@ -74,13 +83,15 @@ class Torsion:
     """Turns by which the cable is twisted as built."""
     damping: float = 0.0
     """Time in s by which the twist is damped, >= 0."""
-    start: str | Motor = "held"
+    start: str | Motor | MotorCourse = "held"
     """Whether a clamp at the start holds the spin: "held", "swivel", or a motor."""
-    end: str | Motor = "held"
+    end: str | Motor | MotorCourse = "held"
     """The same at the end."""
     torque_per_tension: float = 0.0
     """Torque per tension in m while twist is held: torque factor times diameter of a stranded rope, positive for a right-hand lay.
-    Not on reels, nor with an axial law or a rest stretch."""
+    Not on reels, nor with an axial law."""
+    inner: str | Motor = "held"
+    """The same as ``start`` and ``end`` of all clamps between; one that is not held lets the torque through."""
     key: ClassVar[str] = "torsion"
 
     @classmethod
@@ -181,7 +192,7 @@ class AxialLaw:
     """Axial force against engineering strain, instead of the Green law."""
 
     law: str | Sequence[Sequence[float]]
-    """"hooke": EA times the strain; "rope": the same, without force in compression; or a measured curve, rows of strain and force in N, both
+    """"green": EA times the Green strain, as without a law, where that is meant; "hooke": EA times the strain; "rope": the same, without force in compression; or a measured curve, rows of strain and force in N, both
     ascending from a force of 0, which cannot push."""
     key: ClassVar[str] = "axial_law"
 
@@ -190,13 +201,17 @@ Effect = Union[GravityScale, Buoyancy, AxialLaw, Contact, Damping, Drag, LineLoa
 Effects = Union[Effect, Iterable[Effect], Mapping[str, Any], None]
 
 
-def _spin(end: str | Motor) -> Any:
+def _spin(end: str | Motor | MotorCourse) -> Any:
+    if isinstance(end, MotorCourse):
+        return {"course": [[float(x) for x in row] for row in end.rows]}
     return {"motor": {"rate": end.rate, "from": end.start, "until": end.until}} if isinstance(end, Motor) else end
 
 
 def _made_spin(end: Any) -> Any:
     if isinstance(end, str):
         return end
+    if "course" in end:
+        return MotorCourse(tuple(tuple(row) for row in end["course"]))
     motor = end["motor"]
     return Motor(motor["rate"], motor["from"], motor["until"])
 
@@ -210,7 +225,7 @@ def _plain(effect: Any) -> Any:
         return [_plain(piece) for piece in effect.pieces]
     values = {f.name: getattr(effect, f.name) for f in fields(effect)}
     if isinstance(effect, Torsion):
-        return {name: _spin(value) if name in ("start", "end") else value for name, value in values.items()}
+        return {name: _spin(value) if name in ("start", "end", "inner") else value for name, value in values.items()}
     if isinstance(effect, Drag):
         values["flow"] = {k: v for k, v in _plain(effect.flow).items() if k == "velocity" or (v is not None and len(v))}
     for ours, theirs in (("start", "from"), ("end", "to")):
@@ -263,7 +278,7 @@ def build(plain: Mapping[str, Any]) -> dict[str, Any]:
         elif key == "damping":
             made[key] = Damping(**value)
         elif key == "torsion":
-            made[key] = Torsion(**{k: _made_spin(v) if k in ("start", "end") else v for k, v in value.items()})
+            made[key] = Torsion(**{k: _made_spin(v) if k in ("start", "end", "inner") else v for k, v in value.items()})
         elif key == "contact":
             made[key] = Contact(**value)
         elif key == "buoyancy":

@@ -377,6 +377,14 @@ class ImportError(Error, ValueError):  # noqa: A001
     """A model of another program that cannot be imported right: line."""
 
 
+class InTheWayError(Error):
+    """A file that Lariat did not write, or that was changed since, and that would be overwritten."""
+
+
+class BusyError(Error):
+    """A folder that another program writes results to."""
+
+
 class ReadError(Error, OSError):
     """A scene that cannot be read."""
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import csv
 import html
+import io
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
@@ -70,16 +70,14 @@ class Track:
     def __repr__(self) -> str:
         return f"<Track: {len(self)} samples of {', '.join(self.columns)}>"
 
-    def _write(self, path: Path) -> None:
+    def _lines(self) -> Iterator[Iterable[Any]]:
         nodes = self.columns is _CABLE
-        with path.open("w", encoding="utf-8", newline="") as file:
-            lines = csv.writer(file)
-            lines.writerow(["t", *(["node"] if nodes else []), *self.columns])
-            for time, row in zip(self._times, self.rows):
-                if nodes:
-                    lines.writerows([repr(time), node, *map(repr, values.tolist())] for node, values in enumerate(row))
-                else:
-                    lines.writerow([repr(time), *map(repr, row.tolist())])
+        yield ["t", *(["node"] if nodes else []), *self.columns]
+        for time, row in zip(self._times, self.rows):
+            if nodes:
+                yield from ([repr(time), node, *map(repr, values.tolist())] for node, values in enumerate(row))
+            else:
+                yield [repr(time), *map(repr, row.tolist())]
 
 
 class Recording:
@@ -156,16 +154,20 @@ class Recording:
         return self._film.svg()
 
     def save(self, folder: str | PathLike[str]) -> None:
-        """Writes cables/NAME.csv (a row for each sample and node), bodies/NAME.csv, probes/NAME.csv and view.html, the page."""
+        """Writes cables/NAME.csv (a row for each sample and node), bodies/NAME.csv, probes/NAME.csv and view.html, the page, in place
+        of the files of the last recording or run.
+
+        Raises ``InTheWayError`` for a file that Lariat did not write, or that was changed since, and ``BusyError`` while another
+        program writes there.
+        """
+        files = [("view.html", self.page())]
         for kind, tracks in (("cables", self.cables), ("bodies", self.bodies)):
-            for name, track in tracks.items():
-                track._write(_file(folder, kind, name))
-        for name, probe in self.probes.items():
-            with _file(folder, "probes", name).open("w", encoding="utf-8", newline="") as file:
-                lines = csv.writer(file)
-                lines.writerow(probe.columns)
-                lines.writerows(map(repr, row.tolist()) for row in probe.rows)
-        (Path(folder) / "view.html").write_text(self.page(), encoding="utf-8")
+            for file, track in zip(_files(kind, tracks), tracks.values()):
+                files.append((file, _csv(track._lines())))
+        probes = self.probes
+        for file, probe in zip(_files("probes", probes), probes.values()):
+            files.append((file, _csv([probe.columns, *(map(repr, row.tolist()) for row in probe.rows)])))
+        _lariat.save_files(folder, files)
 
     def __len__(self) -> int:
         return max((len(track) for track in (*self.cables.values(), *self.bodies.values())), default=0)
@@ -192,10 +194,15 @@ def _columns(rows: list[Array]) -> list[str]:
     return ["t", *(["value"] if count == 1 else [f"value_{'xyz'[i] if count == 3 else i}" for i in range(count)])]
 
 
-def _file(folder: str | PathLike[str], kind: str, name: str) -> Path:
-    path = Path(folder) / kind / f"{re.sub(r'[^-.() 0-9A-Za-z_]', '_', name).lstrip('.') or '_'}.csv"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    return path
+def _files(kind: str, names: Iterable[str]) -> list[str]:
+    plain = (re.sub(r"[^-.() 0-9A-Za-z_]", "_", name).lstrip(".") or "_" for name in names)
+    return [f"{kind}/{name}.csv" for name in _keys(plain)]
+
+
+def _csv(rows: Iterable[Iterable[Any]]) -> str:
+    text = io.StringIO(newline="")
+    csv.writer(text).writerows(rows)
+    return text.getvalue()
 
 
 def record(what: Recorded, *, name: str = "recording", probes: Mapping[str, Callable[[], ArrayLike]] | None = None) -> Recording:

@@ -16,8 +16,10 @@ class Reel:
 
     rate: float | Sequence[Sequence[float]] = 0.0
     """In m/s, positive pays out: one, or ``[[time in s, rate], ...]`` with ascending times; a rate holds until the next row."""
+    to_length: float | None = None
+    """Length in m that is out when the reel stops: it comes there with the rates, whatever their sign. None: the rates are followed."""
     acceleration: float = 2.0
-    """Largest acceleration of the rate in m/s^2."""
+    """Largest acceleration of the rate in m/s^2. Rows that end before their rate is reached are told by the warning slow_reel."""
     stock: float | None = None
     """Largest length in m that can be out; None: no limit."""
     max_force: float | None = None

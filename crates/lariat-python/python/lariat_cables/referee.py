@@ -7,6 +7,8 @@ Scenarios with contact are stepped by fidelity game, which is the one that has c
 
 - rods that touch each other alone: that of the other adapters, proportional to mass, critical at the slowest mode; between two steps of
   dt the rates are taken times exp(-c dt). When all are at rest, the rest of the frames are that state.
+- rods of which an end slides: it is clamped to a body of a thousandth of the rod's mass on a slider of a world, whose loads are those of the end. Internal
+  damping, critical at the lowest axial mode along the rod and at the slowest mode in bending.
 - rods on obstacles: internal damping, critical at the lowest axial mode, which cannot hold a rope that slides.
 """
 
@@ -33,8 +35,8 @@ PRESETS: dict[str, lariat.Integrator | Fidelity] = {
 
 
 class LariatSolver:
-    """A solver of ``cosseratbench``: stretch and bending of cables, contact with cylinders, planes and other rods, and friction there; without
-    torsion and shear."""
+    """A solver of ``cosseratbench``: stretch, bending and torsion of cables, contact with cylinders, planes and other rods, and friction there;
+    without shear. A clamp that is turned about the rod is a motor of ``lariat.Torsion``."""
 
     name = "lariat"
     backend_version = lariat.__version__
@@ -72,19 +74,32 @@ class LariatSolver:
         """Computes a scenario with this many elements per rod."""
         if len({rod.friction for rod in scenario.rods}) > 1:
             raise NotImplementedError("the larger of two coefficients of friction of rods that touch: Lariat takes the mean")
+        if scenario.quasi_static and not touches(scenario) and any(_motions(rod) for rod in scenario.rods):
+            raise NotImplementedError("driven ends of rods in equilibrium that touch nothing")
         self.rests = False
         cables = [self._cable(rod, scenario, n_elements) for rod in scenario.rods]
-        frames = [[cable.positions] for cable in cables]
         step, steps = self._step(scenario, n_frames)
+        world = None
+        if any(motion.slides_along is not None for rod in scenario.rods for motion in _motions(rod)):
+            world, cables = _on_sliders(cables, scenario, step)
+        frames = [[cable.positions] for cable in cables]
+        twists = [[_twist(cable)] for cable in cables]
         try:
             for _ in range(n_frames - 1):
-                self._advance(cables, scenario, step, steps)
-                for cable, path in zip(cables, frames):
+                if world is None:
+                    self._advance(cables, scenario, step, steps)
+                else:
+                    for _ in range(steps):
+                        world.step()
+                for cable, path, twist in zip(cables, frames, twists):
                     path.append(cable.positions)
+                    twist.append(_twist(cable))
         except lariat.Error as error:
             raise Diverged(str(error), error.time) from error
         paths = [np.stack(path) for path in frames]
-        directors = [_directors(path, np.asarray(rod.normal, float)) for rod, path in zip(scenario.rods, paths)]
+        directors = [
+            _directors(path, np.asarray(rod.normal, float), np.array(twist)) for rod, path, twist in zip(scenario.rods, paths, twists)
+        ]
         return Trajectory(np.linspace(0.0, scenario.duration, n_frames), tuple(paths), tuple(directors))
 
     def _advance(self, cables: list[lariat.Cable], scenario: Scenario, step: float, steps: int) -> None:
@@ -115,14 +130,9 @@ class LariatSolver:
                 for cable in cables:
                     cable.set_state(cable.coordinates, kept * cable.rates)
                 ways = [float(np.abs(cable.positions - was).max()) / rod.length for cable, was, rod in zip(cables, before, scenario.rods)]
-                self.rests = max(ways) < REST * step
+                self.rests = not driven and max(ways) < REST * step
 
     def _cable(self, rod: Rod, scenario: Scenario, n_elements: int) -> lariat.Cable:
-        for motion in (rod.start_motion, rod.end_motion):
-            if motion is not None and np.any(motion.rotation):
-                raise NotImplementedError("ends that are turned, which a motor of lariat.Torsion would do")
-            if motion is not None and motion.slides_along is not None:
-                raise NotImplementedError("ends that slide")
         section = lariat.Section.round(2.0 * rod.radius, rod.material.youngs_modulus, rod.material.density)
         nodes: Array = rod.nodes(n_elements)
         preset, effects = PRESETS[self.preset], list[Any]()
@@ -132,7 +142,13 @@ class LariatSolver:
             effects.append(lariat.Contact(rod.friction, stiffness=stiffness, cables=True, itself=scenario.self_contact))
         if scenario.quasi_static and touches(scenario):
             wave_speed = float(np.sqrt(section.axial_stiffness / section.mass_per_length))
-            effects.append(lariat.Damping.from_ratio(1.0, np.pi * wave_speed / rod.length))
+            damping = lariat.Damping.from_ratio(1.0, np.pi * wave_speed / rod.length)
+            if any(motion.slides_along is not None for motion in _motions(rod)):
+                damping = lariat.Damping(damping.axial, 2.0 / scenario.slowest_frequency())
+            effects.append(damping)
+        if any(np.any(motion.rotation) for motion in _motions(rod)):
+            preset = "game"
+            effects.append(_torsion(rod, _slopes(rod, n_elements)))
         cable = lariat.Cable(
             nodes, section, length=rod.length, elements=n_elements, gravity=scenario.gravity, integrator=preset, effects=effects, name="rod"
         )
@@ -144,8 +160,63 @@ class LariatSolver:
             elif rod.condition(end) is EndCondition.CLAMPED:
                 cable.clamp(at)
         for load in rod.loads:
-            cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
+            motion = rod.motion(load.at)
+            if motion is None or motion.slides_along is None:
+                cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
         return cable
+
+
+def _motions(rod: Rod) -> list[Any]:
+    """Returns the motions of the driven ends."""
+    return [motion for motion in (rod.start_motion, rod.end_motion) if motion is not None]
+
+
+def _torsion(rod: Rod, slopes: Array) -> lariat.Torsion:
+    """Returns the torsion of a rod, whose motors turn its driven ends about it."""
+    spins: dict[str, Any] = {}
+    for (end, at), slope in zip(ENDS, (slopes[0], slopes[-1])):
+        motion = rod.motion(end)
+        if motion is None or not np.any(motion.rotation):
+            continue
+        tangent, turned = slope / np.linalg.norm(slope), np.asarray(motion.rotation, float)
+        about = turned @ tangent
+        if np.abs(turned - np.outer(about, tangent)).max() > 1e-3 * np.abs(turned).max():
+            raise NotImplementedError("ends that are turned about another direction than their own")
+        spins[str(at)] = lariat.MotorCourse(tuple(zip(motion.times, about / (2.0 * np.pi))))
+    return lariat.Torsion(rod.material.shear_modulus * 2.0 * rod.second_moment_of_area, **spins)
+
+
+def _twist(cable: lariat.Cable) -> float:
+    """Returns the twist in rad of a cable between its ends; 0 without torsion."""
+    return sum(reading.twist for reading in cable.torsion())
+
+
+def _on_sliders(cables: list[lariat.Cable], scenario: Scenario, step: float) -> tuple[lariat.World, list[lariat.Cable]]:
+    """Returns a world with the rods, whose ends that slide are clamped to bodies on sliders."""
+    if scenario.obstacles:
+        raise NotImplementedError("ends that slide, beside obstacles")
+    world = lariat.World(scenario.gravity, dt=step, sleep_speed=0.0)
+    held = world.add_body(lariat.RigidBody.fixed())
+    inside = [world.add_cable(cable) for cable in cables]
+    for cable, rod in zip(inside, scenario.rods):
+        for end, at in ENDS:
+            motion = rod.motion(end)
+            if motion is None:
+                continue
+            if motion.slides_along is None or np.any(motion.displacement):
+                raise NotImplementedError("ends that are led, beside ends that slide")
+            place = cable.positions[0 if end is End.START else -1]
+            mass = 1e-3 * rod.material.density * rod.area * rod.length
+            builder = lariat.RigidBody.dynamic(translation=place, gravity_scale=0.0, can_sleep=False)
+            body = world.add_body(builder, [lariat.Collider.ball(rod.radius, mass=mass, sensor=True)])
+            joint = lariat.PrismaticJoint.builder(motion.axis.tolist(), local_anchor1=place, local_anchor2=[0.0, 0.0, 0.0])
+            world.multibody_joints.insert(held, body, joint)
+            cable.release(at)
+            world.attach(cable, at, body, kind="clamp")
+            for load in rod.loads:
+                if load.at is end:
+                    world.rigid_bodies[body].add_force(load.force)
+    return world, inside
 
 
 def touches(scenario: Scenario) -> bool:
@@ -194,8 +265,9 @@ def _slopes(rod: Rod, n_elements: int) -> Array:
     return gradient[:: fine // n_elements]
 
 
-def _directors(path: Array, normal: Array) -> Array:
-    """Returns the normal, carried along the elements of each frame by the smallest rotation from one tangent to the next: untwisted."""
+def _directors(path: Array, normal: Array, twists: Array) -> Array:
+    """Returns the normal at the middles of the elements of each frame: carried by the smallest rotation from one tangent to the next, and turned
+    by its share of the twist of the frame."""
     tangents = np.diff(path, axis=1)
     tangents /= np.linalg.norm(tangents, axis=2, keepdims=True)
     directors = np.empty_like(tangents)
@@ -205,4 +277,5 @@ def _directors(path: Array, normal: Array) -> Array:
         a, b, d = tangents[:, i - 1], tangents[:, i], directors[:, i - 1]
         share = np.sum(b * d, axis=1) / (1.0 + np.sum(a * b, axis=1))
         directors[:, i] = d - share[:, None] * (a + b)
-    return directors
+    angles = np.outer(twists, (np.arange(tangents.shape[1]) + 0.5) / tangents.shape[1])[:, :, None]
+    return np.asarray(np.cos(angles) * directors + np.sin(angles) * np.cross(tangents, directors))

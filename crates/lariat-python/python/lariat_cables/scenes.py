@@ -141,29 +141,32 @@ class Run:
         return self._recorded.page()
 
     def save(self, folder: str | PathLike[str]) -> None:
-        """Writes the files of ``lariat run``: probes/NAME.csv, summary.json and view.html, the page."""
-        (Path(folder) / "probes").mkdir(parents=True, exist_ok=True)
+        """Writes the files of ``lariat run``: probes/NAME.csv, summary.json and view.html, the page, in place of those of the last run.
+
+        Raises ``InTheWayError`` for a file that Lariat did not write, or that was changed since, and ``BusyError`` while another
+        program writes there.
+        """
+        files = [("summary.json", json.dumps(self.summary, indent=2) + "\n"), ("view.html", self.page())]
         for name, probe in self.probes.items():
             rows = [",".join(probe.columns), *(",".join(repr(float(x)) for x in row) for row in probe.rows)]
-            (Path(folder) / "probes" / f"{name}.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
-        (Path(folder) / "summary.json").write_text(json.dumps(self.summary, indent=2) + "\n", encoding="utf-8")
-        (Path(folder) / "view.html").write_text(self.page(), encoding="utf-8")
+            files.append((f"probes/{name}.csv", "\n".join(rows) + "\n"))
+        _lariat.save_files(folder, files)
 
     def svg(self) -> str:
         """Returns the motion as an animated SVG, for a README or a page: no script, any browser."""
         return self._recorded.svg()
 
     def save_svg(self, path: str | PathLike[str]) -> None:
-        """Writes the motion as an animated SVG."""
-        Path(path).write_text(self.svg(), encoding="utf-8")
+        """Writes the motion as an animated SVG, in place of one that was written so and that nobody changed; else ``InTheWayError``."""
+        _lariat.save_file(path, self.svg(), "svg")
 
     def usd(self) -> str:
         """Returns the motion as OpenUSD (.usda): curves and bodies with time samples, and the stiffness of the cables."""
         return self._recorded.usd()
 
     def save_usd(self, path: str | PathLike[str]) -> None:
-        """Writes the motion as OpenUSD, for usdview, Blender and others."""
-        Path(path).write_text(self.usd(), encoding="utf-8")
+        """Writes the motion as OpenUSD, for usdview, Blender and others, in place of one as ``save_svg``."""
+        _lariat.save_file(path, self.usd(), "usd")
 
     def __repr__(self) -> str:
         return f"<Run of {self.summary['name']!r}: {self.summary['simulated_s']} s, probes {', '.join(self.probes) or 'none'}>"

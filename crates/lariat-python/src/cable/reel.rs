@@ -40,6 +40,11 @@ impl Cable {
         self.change(py, |cable| cable.set_reel_rate(at.0, rate))
     }
 
+    /// Lets the reel at an end come to a length of cable in m that is out, with at most a rate in m/s, and stop there.
+    fn set_reel_length(&self, py: Python<'_>, at: Place, length: f64, rate: f64) -> PyResult<()> {
+        self.change(py, |cable| cable.set_reel_length(at.0, length, rate))
+    }
+
     /// Takes the reel at an end away; what is out stays. Does nothing without a reel. Raises
     /// UnknownPlaceError.
     fn remove_reel(&self, py: Python<'_>, at: Place) -> PyResult<()> {

@@ -11,14 +11,19 @@
 //!
 //! B selects the coordinates of the cable that the bodies hold, and P are the velocities of these by those of the bodies.
 //!
+//! A segment of a cable with torsion, of stiffness K_s and damping C_s, has the twist rate g.v + w: v are the velocities of the coordinates, w
+//! is the spin of the body at its last node about the slope there, less that at its first. It adds k g g^T, k = h C_s + h^2 K_s, and acts on
+//! the bodies, too: one more row g of B, with 1/k on its place of the diagonal of C, and -w in P. (The least energy k y^2/2 of the rates y that the
+//! row may be off by is that of a spring between them.)
+//!
 //! # Validity
 //!
 //! A is one linearised implicit Euler step; if compression makes it indefinite, D and K are halved until it is positive definite.
 
-use super::link::Link;
+use super::link::{End, Link};
 use crate::error::Raise;
 use fearless_simd::Level;
-use lariat_ancf::coupling::{Coupling, Linearisation};
+use lariat_ancf::coupling::{Coupling, Linearisation, TwistBorder};
 use lariat_ancf::linalg::{BlockTridiagonal, Definiteness, Factorisation, SchurComplement};
 use lariat_ancf::{self as ancf, At, Vector3};
 use nalgebra::DMatrix;
@@ -30,14 +35,17 @@ impl Link {
     /// Returns Z; see the page of this module.
     pub(super) fn impedance(&self, cable: &ancf::Cable, h: f64) -> Result<DMatrix<f64>, Raise> {
         let mut cable = cable.clone();
+        // while the bodies hold the spin
+        let borders = cable.twist_borders();
+        let (mass, stiffness, damping) = (cable.mass_matrix(), cable.stiffness_matrix(), cable.damping_matrix());
         for end in &self.ends {
             cable.detach(At::Node(end.node))?;
         }
-        let (mass, stiffness, damping) = (cable.mass_matrix(), cable.stiffness_matrix(), cable.damping_matrix());
         let level = Level::new();
         let mut factorisation = Factorisation::default();
+        let mut share = 1.0;
         let is_positive_definite = (0..=HALVINGS).any(|halving| {
-            let share = 0.5f64.powi(halving);
+            share = 0.5f64.powi(halving);
             let mut a = combine(&mass, &damping, share * h, &stiffness, share * h * h);
             cable.apply_supports(&mut a);
             matches!(factorisation.factor(level, &a), Ok(Definiteness::PositiveDefinite))
@@ -63,7 +71,7 @@ impl Link {
                 rows.push(row);
                 let unit = Vector3::ith(axis, 1.0);
                 // (omega x lever) . unit = omega . (lever x unit)
-                maps.push((i, unit, lever.cross(&unit)));
+                maps.push(vec![(i, unit, lever.cross(&unit))]);
             }
             if end.direction.is_some() {
                 let at = 6 * end.node + 3;
@@ -76,9 +84,23 @@ impl Link {
                     // omega . unit = unit . (t x t')/|t|^2
                     row[at..at + 3].copy_from_slice((unit.cross(&slope) / slope.norm_squared()).as_slice());
                     rows.push(row);
-                    maps.push((i, Vector3::zeros(), unit));
+                    maps.push(vec![(i, Vector3::zeros(), unit)]);
                 }
             }
+        }
+        let firm = rows.len();
+        let mut supple = Vec::new();
+        for TwistBorder { nodes, stiffness, damping, gradient, .. } in borders {
+            let spin = |(i, end): (usize, &End)| {
+                end.direction?;
+                let sign = nodes.iter().zip([1.0, -1.0]).find(|(node, _)| **node == end.node)?.1;
+                let at = 6 * end.node + 3;
+                let slope = Vector3::from_column_slice(&cable.positions()[at..at + 3]);
+                Some((i, Vector3::zeros(), slope.try_normalize(0.0)? * sign))
+            };
+            maps.push(self.ends.iter().enumerate().filter_map(spin).collect());
+            rows.push(held_out(&cable, gradient));
+            supple.push((share * h * (damping + h * stiffness)).recip());
         }
         let count = rows.len();
         let mut border = SchurComplement::default();
@@ -87,18 +109,29 @@ impl Link {
         border.complete(level, &factorisation);
         let mut compliance = DMatrix::zeros(count, count);
         border.subtract_from(level, compliance.as_mut_slice());
-        let compliance = -compliance;
+        let mut compliance = -compliance;
+        supple.iter().enumerate().for_each(|(k, own)| compliance[(firm + k, firm + k)] += own);
         let p = DMatrix::from_fn(count, 6 * self.ends.len(), |r, c| {
-            let (end, linear, angular) = &maps[r];
-            match c / 6 == *end {
-                true if c % 6 < 3 => linear[c % 6],
-                true => angular[c % 6 - 3],
-                false => 0.0,
-            }
+            let own = maps[r].iter().filter(|(end, ..)| *end == c / 6);
+            own.map(|(_, linear, angular)| if c % 6 < 3 { linear[c % 6] } else { angular[c % 6 - 3] }).sum::<f64>()
         });
         let z = p.transpose() * compliance.try_inverse().ok_or_else(none)? * p;
         if z.iter().all(|x| x.is_finite()) { Ok(z) } else { Err(none()) }
     }
+}
+
+/// Returns derivatives by the coordinates without those that the supports hold.
+fn held_out(cable: &ancf::Cable, mut gradient: Vec<f64>) -> Vec<f64> {
+    let mut kept = BlockTridiagonal::zeros(cable.nodes());
+    cable.apply_supports(&mut kept);
+    // of the projector on what is held, the diagonal blocks are symmetric
+    for (own, block) in gradient.chunks_exact_mut(6).zip(&kept.diag) {
+        let before: Vec<f64> = own.to_vec();
+        for (column, x) in block.0.iter().zip(before) {
+            own.iter_mut().zip(column).for_each(|(own, held)| *own -= held * x);
+        }
+    }
+    gradient
 }
 
 /// Returns `m + a c + b k`.

@@ -139,11 +139,7 @@ impl World {
             }
             Event::Unsettled { attachment, how } => {
                 let cable = self.0.with(py, |contents| contents.set.attachment(attachment).map(|a| a.cable()).ok());
-                let (steps, force) = (100.0 * how.steps, 100.0 * how.force);
-                (
-                    format!("unsettled: {steps:.0} % of the steps before {:.3} s, forces {force:.1} % off", how.time),
-                    cable,
-                )
+                (format!("unsettled: the joints of the body did not hold it, {}", how.text()), cable)
             }
             Event::Warning { cable, warning } => {
                 (format!("warning: {}", Interface::Python.text(&warning)), Some(cable))

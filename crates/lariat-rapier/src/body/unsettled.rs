@@ -4,41 +4,112 @@
 //! ```text
 //! |v_after - v0| > 0.05 (|p| + |m g h| + |v1 - v|)               in more than a quarter of the Rapier steps
 //! |sum ((F0 + F) h/2 - p)| > 0.05 sum |p|                        over the time
+//! g > max(0.1 s, 2e-3 a)                                         for 0.05 s and three steps
 //! ```
-//! Either of the two tells if it holds in half a second, and in the next. v0 is the velocity that
-//! Rapier was given, p = L (v1 - v - a0 h) - (m g + r) h the impulse of the cables by the predicted
-//! change of velocity, and F0 and F the forces that are read at the ends of the step before and of
-//! this one. All are spatial vectors of a body, in the norm of its kinetic energy. The first says
-//! that what joints, limits and contacts do changes from step to step, so that the cables are
-//! jerked at each; the second that forces at the ends of steps are not those that move the body.
-//! Blows, a start with a jolt and a joint that comes to its limit do not last so long. Where cables
-//! pull with less than a twentieth of the body's weight nothing is told.
+//! Either of the first two tells if it holds in half a second, and in the next, the third at once.
+//! v0 is the velocity that Rapier was given, p = L (v1 - v - a0 h) - (m g + r) h the impulse of the
+//! cables by the predicted change of velocity, and F0 and F the forces that are read at the ends of
+//! the step before and of this one. All are spatial vectors of a body, in the norm of its kinetic
+//! energy. The first says that what joints, limits and contacts do changes from step to step, so
+//! that the cables are jerked at each; the second that forces at the ends of steps are not those
+//! that move the body. Blows, a start with a jolt and a joint that comes to its limit do not last
+//! so long. Where cables pull with less than a twentieth of the body's weight the first two tell
+//! nothing.
+//!
+//! g is the largest [gap](JointGap) of the joints that the body moves with, a the
+//! arm of that joint, and s the way of the body since the last half second began: joints that
+//! Rapier does not solve let the body sink, and by that much its position is wrong, whatever the
+//! cable does.
 //!
 //! # Validity
 //! Random chains of 2 to 14 links on one or two ropes, near a body or not, 30 to 240 Hz, both
 //! fidelities: where the force is right to 1 % and does not ripple, the first ratio is below 1e-2
 //! in nine steps of ten, in most chains below 1e-4; where it is wrong by more than that or ripples
-//! by more than 10 %, either of the two holds (tests, chains.rs).
+//! by more than 10 %, either of the two holds (tests, chains.rs). The third of a link of 5 g to 10
+//! kg that carries 95 kg, 30 to 120 Hz: tests, light_links.rs.
 
 use crate::body::spatial::split_spatial;
 use crate::scales::TIME_ROUNDING;
+use crate::scales::body::{JOINT_GAP, JOINT_STEPS, JOINT_TIME, JOINT_WAY};
 use crate::scales::body::{SETTLE_SHARE, SETTLE_SPEED, SETTLE_SPEED_SHARE, SETTLE_STEPS, SETTLE_WINDOW};
-use ::nalgebra::{Matrix6, Vector6};
+use ::nalgebra::{Matrix6, Vector3, Vector6};
 use lariat_ancf::island::RigidBody;
 use serde::{Deserialize, Serialize};
 
-/// A body on joints whose motion was not the predicted one for half a second, so that forces and
-/// tensions of its cables are not to be trusted.
+/// A body on joints whose motion was not the predicted one for half a second, or whose joints came
+/// apart, so that forces and tensions of its cables are not to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Unsettled {
-    /// Time of the cable in s at the end of the worst half second.
+    /// Time of the cable in s at the end of the worst half second, or of the largest gap.
     pub time: f64,
     /// Share of its Rapier steps in which the body deviated from its prediction, 0 to 1.
     pub steps: f64,
     /// Difference between the forces that were read and those that moved the body, as a share of
     /// these.
     pub force: f64,
+    /// Distance in m by which a joint of the body came apart; 0 where all of them hold.
+    #[serde(default)]
+    pub gap: f64,
+}
+
+impl Unsettled {
+    /// Creates one from its fields: s, two shares, m.
+    pub fn new(time: f64, steps: f64, force: f64, gap: f64) -> Self {
+        Unsettled { time, steps, force, gap }
+    }
+
+    /// Returns in words what is wrong.
+    pub fn text(&self) -> String {
+        let Unsettled { time, steps, force, gap } = self;
+        if *gap > 0.0 {
+            return format!("at {time:.3} s one of them is {gap:.1e} m apart");
+        }
+        let (steps, force) = (100.0 * steps, 100.0 * force);
+        format!(
+            "in {steps:.0} % of the steps before {time:.3} s, and its forces are {force:.1} % off those that moved it"
+        )
+    }
+}
+
+/// The largest gap of the joints of a mechanism.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct JointGap {
+    /// Distance of the anchors in m along the locked axes, above rounding.
+    pub gap: f64,
+    /// Largest distance in m of an anchor of that joint from the centre of its body.
+    pub arm: f64,
+}
+
+/// Whether the joints that a body moves with hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct JointWatch {
+    /// Where the body was when this half second began.
+    from: Option<Vector3<f64>>,
+    /// Its way in m in the half second before, and in this one.
+    way: [f64; 2],
+    /// How long a gap has been beyond its limit: in s, and in steps.
+    lasting: (f64, u32),
+}
+
+impl JointWatch {
+    /// Reads a Rapier step; returns the gap in m if it has lasted.
+    fn note(&mut self, joints: &JointGap, position: &Vector3<f64>, h: f64) -> Option<f64> {
+        let from = *self.from.get_or_insert(*position);
+        self.way[1] = self.way[1].max((position - from).norm());
+        let limit = (JOINT_WAY * self.way[0].max(self.way[1])).max(JOINT_GAP * joints.arm);
+        self.lasting = match joints.gap > limit {
+            true => (self.lasting.0 + h, self.lasting.1 + 1),
+            false => (0.0, 0),
+        };
+        let (time, steps) = self.lasting;
+        (time >= JOINT_TIME * (1.0 - TIME_ROUNDING) && steps >= JOINT_STEPS).then_some(joints.gap)
+    }
+
+    /// Begins another half second.
+    fn roll(&mut self) {
+        (self.from, self.way) = (None, [self.way[1], 0.0]);
+    }
 }
 
 /// What Rapier made of the predictions for a body on joints so far.
@@ -51,6 +122,7 @@ pub(crate) struct SettleWatch {
     /// them.
     pull: f64,
     difference: Vector6<f64>,
+    joints: JointWatch,
     /// What was read in the last step.
     last: Option<Vector6<f64>>,
     /// Whether the last half second was unsettled, and the worst one after such a one.
@@ -72,6 +144,8 @@ pub(crate) struct SettleStep<'a> {
     /// Impulse of its cables, and what is read of it.
     pub pull: Vector6<f64>,
     pub read: Vector6<f64>,
+    /// The joints that it moves with.
+    pub joints: JointGap,
     /// What gravity gives to a mass in the step, in m/s.
     pub gravity: f64,
     /// Time step, and time of the cables after it, in s.
@@ -82,6 +156,14 @@ pub(crate) struct SettleStep<'a> {
 impl SettleWatch {
     /// Reads a Rapier step.
     pub fn note(&mut self, step: &SettleStep) {
+        if let Some(gap) = self.joints.note(&step.joints, &step.body.position, step.h) {
+            let before = self.worst.map_or(0.0, |worst| worst.gap);
+            if gap > before {
+                let found = Unsettled { time: step.time, steps: 0.0, force: 0.0, gap };
+                self.worst = Some(self.worst.map_or(found, |worst| Unsettled { time: step.time, gap, ..worst }));
+                self.due = !self.told;
+            }
+        }
         let Some(inverse) = step.inertia.try_inverse() else { return };
         let of_velocity = |v: &Vector6<f64>| v.dot(&(step.inertia * v)).max(0.0).sqrt();
         let of_impulse = |p: &Vector6<f64>| p.dot(&(inverse * p)).max(0.0).sqrt();
@@ -100,14 +182,16 @@ impl SettleWatch {
         if self.time >= SETTLE_WINDOW * (1.0 - TIME_ROUNDING) {
             let steps = f64::from(self.deviating) / f64::from(self.steps);
             let force = if self.pull > 0.0 { of_impulse(&self.difference) / self.pull } else { 0.0 };
-            let found = Unsettled { time: step.time, steps, force };
+            let gap = self.worst.map_or(0.0, |worst| worst.gap);
+            let found = Unsettled { time: step.time, steps, force, gap };
             let kept = self.worst.is_some_and(|worst| worst.steps.max(worst.force) >= steps.max(force));
             let unsettled = steps > SETTLE_STEPS || force > SETTLE_SHARE;
             if unsettled && self.before && !kept {
                 (self.worst, self.due) = (Some(found), !self.told);
             }
-            let SettleWatch { last, worst, due, told, .. } = *self;
-            *self = SettleWatch { last, worst, due, told, before: unsettled, ..SettleWatch::default() };
+            self.joints.roll();
+            let SettleWatch { joints, last, worst, due, told, .. } = *self;
+            *self = SettleWatch { joints, last, worst, due, told, before: unsettled, ..SettleWatch::default() };
         }
     }
 

@@ -92,7 +92,7 @@ impl Finder {
     }
 
     /// Returns a collider if a cable may touch it.
-    fn touched<'a>(
+    pub(crate) fn touched<'a>(
         &self,
         world: &'a PhysicsWorld,
         cable: CableHandle,
@@ -184,7 +184,8 @@ impl Finder {
                     let depth = |anchor: &Vector3<f64>| -surface.nearest(anchor).distance;
                     held_pieces(contents, CableHandle(index as u32), collider, cable.contact_radius(), depth)
                 };
-                obstacles.extend(self.still_obstacle((found, collider), cable, except));
+                let friction = |own: f64| slot.map_or(0.0, |slot| slot.rules.friction(own, collider));
+                obstacles.extend(self.still_obstacle((found, collider), cable, friction, except));
             }
         }
         cable.set_obstacles(obstacles)
@@ -196,17 +197,20 @@ impl Finder {
         if cable.effects().contact.is_some() {
             let rules = ContactRules::default();
             for (found, collider) in world.colliders.iter().filter(|(_, collider)| rules.allow(collider)) {
-                obstacles.extend(self.still_obstacle((found, collider), cable, |_| Vec::new()));
+                let friction = |own: f64| rules.friction(own, collider);
+                obstacles.extend(self.still_obstacle((found, collider), cable, friction, |_| Vec::new()));
             }
         }
         cable.set_obstacles(obstacles)
     }
 
-    /// Returns a collider as an obstacle of a cable that stands still.
+    /// Returns a collider as an obstacle of a cable that stands still, with the friction that it
+    /// has with one of a coefficient of its own: statics read it, and do without.
     fn still_obstacle(
         &mut self,
         (found, collider): (ColliderHandle, &Collider),
         cable: &Cable,
+        friction: impl FnOnce(f64) -> f64,
         except: impl FnOnce(&dyn Surface) -> Vec<[f64; 2]>,
     ) -> Option<Obstacle> {
         let surface = self.surfaces.of(found, collider.shared_shape())?;
@@ -216,7 +220,7 @@ impl Finder {
             surface,
             motion: still(collider, cable.time()),
             mount: None,
-            friction: 0.0,
+            friction: cable.effects().contact.map_or(0.0, |contact| friction(contact.friction)),
             restitution: 0.0,
             skin: f64::from(collider.contact_skin()),
         })

@@ -29,6 +29,9 @@ pub(crate) struct GapWatch {
     worst: Option<(f64, f64)>,
     /// Whether it has been told.
     told: bool,
+    /// Whether it was told how the attachment begins.
+    #[serde(default)]
+    introduced: bool,
 }
 
 impl GapWatch {
@@ -36,7 +39,7 @@ impl GapWatch {
     /// Returns what to tell: once, a gap that opened after it had closed.
     pub fn note(&mut self, gap: f64, time: f64, length: f64) -> Option<OpenGap> {
         if !self.closed && gap <= OPEN_GAP * length {
-            *self = GapWatch { closed: true, ..GapWatch::default() };
+            *self = GapWatch { closed: true, introduced: self.introduced, ..GapWatch::default() };
         }
         let keep = self.worst.is_some_and(|(worst, _)| if self.closed { worst >= gap } else { worst <= gap });
         if !keep {
@@ -45,6 +48,11 @@ impl GapWatch {
         let open = self.open(length).filter(|_| self.closed && !self.told)?;
         self.told = true;
         Some(open)
+    }
+
+    /// Returns whether this is the first call, of an attachment that has not been read.
+    pub fn introduce(&mut self) -> bool {
+        !core::mem::replace(&mut self.introduced, true) && !self.is_read()
     }
 
     /// Returns whether it has been read.

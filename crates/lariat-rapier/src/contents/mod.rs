@@ -25,6 +25,7 @@ use crate::water::BodiesInWater;
 use attachment::Attachment;
 use junction::Junction;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::seal::Checksum;
 use lariat_ancf::{At, Cable};
 use mark::WorldMark;
 use rapier::dynamics::RigidBodyHandle;
@@ -51,6 +52,9 @@ pub(crate) struct Slot {
     /// Whether its load was compared with its strength since that was set.
     #[serde(default)]
     pub compared: bool,
+    /// Whether it was told what is wrong with how it begins.
+    #[serde(default)]
+    pub introduced: bool,
     /// What it may touch.
     #[serde(default)]
     pub rules: ContactRules,
@@ -138,6 +142,7 @@ impl Contents {
             gravity,
             sort_key,
             compared: false,
+            introduced: false,
             rules: ContactRules::default(),
             touched: Vec::new(),
             ignored: Vec::new(),
@@ -158,10 +163,10 @@ impl Contents {
     /// Returns a key by which other cables remember a new one: by its name and place, so that it
     /// does not depend on the order of insertion.
     fn free_key(&self, slot: &Slot) -> u64 {
-        // FNV-1a; 0 stands for no key
-        let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        let place = slot.sort_key.iter().flat_map(|x| x.to_bits().to_le_bytes());
-        let mut key = slot.cable.name().bytes().chain(place).fold(0xcbf2_9ce4_8422_2325, hash).max(1);
+        let mut sum = Checksum::of(slot.cable.name().as_bytes());
+        slot.sort_key.iter().for_each(|x| sum.add(&x.to_bits().to_le_bytes()));
+        // 0 stands for no key
+        let mut key = sum.value().max(1);
         while self.cables.values().any(|other| other.cable.contact_key() == key) {
             key = key.wrapping_add(1).max(1);
         }

@@ -31,6 +31,7 @@ mod generalised;
 mod group;
 mod joint_chain;
 mod joint_damping;
+mod joint_gap;
 mod limits;
 mod loads;
 mod multibody;

@@ -75,19 +75,31 @@ pub(crate) fn deepest_beside(cable: &Cable, collider: &Collider, except: &[[f64;
 /// collider, and how deep in m, if that is deeper than `touching`; or half of the length inside, if
 /// the line enters by one face and leaves by an opposite one.
 fn pierced(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>, touching: f64) -> Option<(f64, f64)> {
-    let cast = |origin: &Vector3<f64>, end: &Vector3<f64>| {
-        let ray = Ray::new(to_vector(origin), to_vector(&(end - origin)));
-        collider.shape().cast_ray_and_get_normal(collider.position(), &ray, 1.0, false)
-    };
-    let (entry, exit) = (cast(from, to)?, cast(to, from)?);
-    let (start, end) = (entry.time_of_impact as f64, 1.0 - exit.time_of_impact as f64);
+    let ([start, end], through) = faces(collider, from, to)?;
     let length = (end - start).max(0.0) * (to - from).norm();
     let places = (1..2 * POINTS).map(|k| start + (end - start) * k as f64 / (2 * POINTS) as f64);
     let depths = places.map(|share| (share, depth(collider, &(from + (to - from) * share)).0));
     let deepest =
         depths.reduce(|a, b| if b.1 > a.1 { b } else { a }).filter(|(_, depth)| *depth > touching && length > 0.0);
-    let through = entry.normal.dot(exit.normal) < OPPOSITE;
     deepest.or_else(|| through.then_some((0.5 * (start + end), 0.5 * length)))
+}
+
+/// Returns where on a line between two points outside a collider, from 0 to 1, it enters and leaves
+/// this, and whether by opposite faces.
+fn faces(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<([f64; 2], bool)> {
+    let cast = |origin: &Vector3<f64>, end: &Vector3<f64>| {
+        let ray = Ray::new(to_vector(origin), to_vector(&(end - origin)));
+        collider.shape().cast_ray_and_get_normal(collider.position(), &ray, 1.0, false)
+    };
+    let (entry, exit) = (cast(from, to)?, cast(to, from)?);
+    let ends = [f64::from(entry.time_of_impact), 1.0 - f64::from(exit.time_of_impact)];
+    Some((ends, entry.normal.dot(exit.normal) < OPPOSITE))
+}
+
+/// Returns whether a straight way between two points enters a collider by one face and leaves it by
+/// an opposite one.
+pub(crate) fn passes(collider: &Collider, from: &Vector3<f64>, to: &Vector3<f64>) -> bool {
+    faces(collider, from, to).is_some_and(|([start, end], through)| through && start < end)
 }
 
 /// Returns the [pieces](held_pieces) of a cable that do not touch a collider, by its shape; none of

@@ -2,26 +2,27 @@
 //!
 //! Cables of a set are watched ([`Settings::watch`](crate::Settings::watch)): each warning of
 //! [`lariat_ancf::warning`] is an [`Event::Warning`] once, after the host step in which it came up,
-//! and is logged, for programs that do not look at events.
+//! and is logged, for programs that do not look at events. What is wrong with how a cable or an
+//! attachment begins is logged before its first host step.
 //! [`CableSet::warnings`](crate::CableSet::warnings) returns all at any time. Both are told up to
 //! the level of [`Settings::warn_level`](crate::Settings::warn_level), and but for what follows
 //! from what is told of the same cable ([`lariat_ancf::warning::fold`]).
 
 use crate::body::unsettled::Unsettled;
-use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::contents::gaps::OpenGap;
+use crate::contents::{Contents, Slot};
 use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
-use crate::scales::read::JOLT;
-use lariat_ancf::Level;
+use crate::scales::read::{FAR_ANCHOR, JOLT};
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::fold::{self, Judged, Sign};
+use lariat_ancf::{Cable, Level};
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
 use rapier::math::Real;
@@ -77,11 +78,11 @@ pub enum Warning {
         /// The gap.
         gap: OpenGap,
     },
-    /// What joints, limits and contacts do to a body on joints changed from step to step.
+    /// What joints, limits and contacts do to a body on joints changed from step to step, or the
+    /// joints came apart.
     #[error(
-        "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: in {:.0} % of the steps before {:.3} s, and its \
-         forces are {:.1} % off those that moved it; do not trust them: take shorter host steps, more `Settings::rapier_steps` or solver iterations, weld links \
-         into one body, or keep heavy links away from light ones", 100.0 * how.steps, how.time, 100.0 * how.force
+        "cable {name:?}: the body of an attachment is on joints that did not hold it as predicted: {}; do not trust its position and forces: take shorter \
+         host steps, more `Settings::rapier_steps` or solver iterations, weld links into one body, or keep heavy links away from light ones", how.text()
     )]
     Unsettled {
         /// The attachment.
@@ -106,6 +107,29 @@ pub enum Warning {
         /// Force in N of the wave that it makes in the cable.
         force: f64,
     },
+    /// An anchor far from all colliders of its body.
+    #[error(
+        "cable {name:?}: the anchor of an attachment is {distance:.3e} m from the origin of its body, whose colliders reach {radius:.3e} m: the anchor is in the axes of the body; \
+         was a point of the world meant?"
+    )]
+    FarAnchor {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// Distance of the anchor from the origin of the body in m.
+        distance: f64,
+        /// Radius of a sphere about the origin that holds the colliders in m.
+        radius: f64,
+    },
+    /// The world is in another unit than m.
+    #[error(
+        "Rapier's `length_unit` is {unit}: cables are in m, kg and s, and so are the limits by which their contacts, steps and warnings are judged; scale the world to m"
+    )]
+    LengthUnit {
+        /// `IntegrationParameters::length_unit`.
+        unit: f64,
+    },
     /// A cable that touches bodies would bounce off a collider with more of its velocity than it
     /// can.
     #[error(
@@ -129,7 +153,11 @@ impl Warning {
     pub fn level(&self) -> Level {
         match self {
             Warning::Cable { warning, .. } => warning.level(),
-            Warning::InCollider { .. } | Warning::VelocityJump { .. } | Warning::HighRestitution { .. } => Level::Setup,
+            Warning::InCollider { .. }
+            | Warning::VelocityJump { .. }
+            | Warning::FarAnchor { .. }
+            | Warning::LengthUnit { .. }
+            | Warning::HighRestitution { .. } => Level::Setup,
             Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
         }
     }
@@ -142,7 +170,9 @@ impl Warning {
             | Warning::HighRestitution { cable, .. } => Some(*cable),
             Warning::OpenGap { attachment, .. }
             | Warning::Unsettled { attachment, .. }
+            | Warning::FarAnchor { attachment, .. }
             | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
+            Warning::LengthUnit { .. } => None,
         }
     }
 }
@@ -158,7 +188,10 @@ impl Judged for Warning {
             Warning::InCollider { .. } => Some(Sign::Inside),
             Warning::OpenGap { .. } => Some(Sign::Gap),
             Warning::VelocityJump { .. } => Some(Sign::Shock),
-            Warning::Unsettled { .. } | Warning::HighRestitution { .. } => None,
+            Warning::Unsettled { .. }
+            | Warning::FarAnchor { .. }
+            | Warning::LengthUnit { .. }
+            | Warning::HighRestitution { .. } => None,
         }
     }
 
@@ -185,6 +218,8 @@ impl Judged for Warning {
             Warning::Unsettled { how, .. } => how.force,
             Warning::VelocityJump { force, .. } => *force,
             Warning::HighRestitution { restitution, .. } => *restitution,
+            Warning::FarAnchor { distance, radius, .. } => distance / radius,
+            Warning::LengthUnit { unit } => *unit,
         }
     }
 }
@@ -204,37 +239,49 @@ pub(crate) fn told(contents: &Contents, world: &PhysicsWorld, asked: Option<Leve
 /// Returns all warnings about the cables of a set.
 fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    let unit = f64::from(world.integration_parameters.length_unit);
+    if unit != 1.0 {
+        warnings.push(Warning::LengthUnit { unit });
+    }
     for (cable, slot) in contents.cables.iter() {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
-        for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
-            let except = held_beside(contents, handle, &slot.cable, shape);
-            let own = !except.is_empty();
-            let touches = slot.cable.effects().contact.is_some() && slot.rules.allow(shape);
-            if own && !touches {
-                continue;
-            }
-            if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
-                let name = slot.cable.name().to_string();
-                warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth, own });
-            }
-        }
-        if let Some(contact) = slot.cable.effects().contact {
-            let allowed = world.colliders.iter().filter(|(_, collider)| slot.rules.allow(collider));
-            let bounces = allowed.map(|(h, collider)| (h, slot.rules.restitution(contact.restitution, collider)));
-            let largest = bounces.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|found| found.1 > LARGEST_RESTITUTION);
-            if let Some((collider, restitution)) = largest {
-                let name = slot.cable.name().to_string();
-                warnings.push(Warning::HighRestitution { cable: handle, name, collider, restitution });
-            }
-        }
+        warnings.extend(at_start(contents, world, handle, slot));
     }
     let attachments = contents.attachments.iter();
     for (i, a) in attachments {
         let attachment = AttachmentHandle(i as u32);
         warnings.extend(of_attachment(contents, attachment, a, world));
+        warnings.extend(far_anchor(contents, attachment, a, world));
         if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
             warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
+        }
+    }
+    warnings
+}
+
+/// Returns what is to be said about a cable where it is, before it is stepped.
+fn at_start(contents: &Contents, world: &PhysicsWorld, handle: CableHandle, slot: &Slot) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (collider, shape) in world.colliders.iter().filter(|(_, collider)| !collider.is_sensor()) {
+        let except = held_beside(contents, handle, &slot.cable, shape);
+        let own = !except.is_empty();
+        let touches = slot.cable.effects().contact.is_some() && slot.rules.allow(shape);
+        if own && !touches {
+            continue;
+        }
+        if let Some((arc_length, depth)) = deepest_beside(&slot.cable, shape, &except) {
+            let name = slot.cable.name().to_string();
+            warnings.push(Warning::InCollider { cable: handle, name, collider, arc_length, depth, own });
+        }
+    }
+    if let Some(contact) = slot.cable.effects().contact {
+        let allowed = world.colliders.iter().filter(|(_, collider)| slot.rules.allow(collider));
+        let bounces = allowed.map(|(h, collider)| (h, slot.rules.restitution(contact.restitution, collider)));
+        let largest = bounces.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|found| found.1 > LARGEST_RESTITUTION);
+        if let Some((collider, restitution)) = largest {
+            let name = slot.cable.name().to_string();
+            warnings.push(Warning::HighRestitution { cable: handle, name, collider, restitution });
         }
     }
     warnings
@@ -277,6 +324,52 @@ fn of_attachment(
     let (difference, force) = (difference.norm(), shock.force);
     let due = difference > JOLT + rounding && shock.is_large();
     due.then_some(Warning::VelocityJump { attachment, name, difference, force })
+}
+
+/// Returns whether an anchor is far outside of the colliders of its dynamic body.
+fn far_anchor(
+    contents: &Contents,
+    attachment: AttachmentHandle,
+    own: &Attachment,
+    world: &PhysicsWorld,
+) -> Option<Warning> {
+    let body = world.bodies.get(own.body).filter(|body| body.is_dynamic())?;
+    let reach = |handle: &ColliderHandle| {
+        let collider = world.colliders.get(*handle)?;
+        let sphere = collider.shape().compute_local_bounding_sphere();
+        let place = collider.position_wrt_parent().copied().unwrap_or_default();
+        let centre = vector(place.translation) + rotation(place.rotation) * vector(sphere.center);
+        Some(centre.norm() + f64::from(sphere.radius))
+    };
+    let radius = body.colliders().iter().filter_map(reach).fold(0.0, f64::max);
+    let distance = own.anchor.norm();
+    let name = contents.cable(own.cable).ok()?.name().to_string();
+    let far = radius > 0.0 && distance > FAR_ANCHOR * radius;
+    far.then_some(Warning::FarAnchor { attachment, name, distance, radius })
+}
+
+/// Logs, before a host step, what is wrong with how cables and attachments begin that have not been
+/// stepped: where they lie and how they move is what the user gave.
+pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld) {
+    for index in 0..contents.cables.len() {
+        let Some(slot) = contents.cables.get_mut(index).filter(|slot| slot.cable.is_watched()) else { continue };
+        if core::mem::replace(&mut slot.introduced, true) {
+            continue;
+        }
+        if let Some(slot) = contents.cables.get(index) {
+            let warnings = at_start(contents, world, CableHandle(index as u32), slot);
+            warnings.iter().for_each(|warning| log::warn!("{warning}"));
+        }
+    }
+    for index in 0..contents.attachments.len() {
+        let is_new = contents.attachments.get_mut(index).is_some_and(|attachment| attachment.watch.introduce());
+        let Some(own) = contents.attachments.get(index).filter(|_| is_new) else { continue };
+        let is_watched = contents.cable(own.cable).is_ok_and(Cable::is_watched);
+        let warning = of_attachment(contents, AttachmentHandle(index as u32), own, world);
+        if let Some(warning) = warning.filter(|_| is_watched) {
+            log::warn!("{warning}");
+        }
+    }
 }
 
 /// Reads the cables at the end of a host step, and tells them first whether nothing else acts on

@@ -58,7 +58,8 @@ use serde::{Deserialize, Serialize};
 /// # Snapshots
 /// A set serialises with all of its state; a snapshot of (world, set) replays to the bit. JSON
 /// needs `serde_json` with its feature `float_roundtrip`, without which numbers change in their
-/// last digit.
+/// last digit. A [seal](lariat_ancf::seal) around the bytes refuses damaged ones, and those of
+/// another version.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CableSet {
     /// How the set steps.
@@ -232,9 +233,33 @@ impl CableSet {
     /// # Errors
     /// As [`equilibrium`](Self::equilibrium); [`Error::Cable`] for numbers that are not finite.
     pub fn equilibrium_under(&mut self, world: &mut PhysicsWorld, forces: &[BodyForce]) -> Result<Equilibrium, Error> {
+        self.equilibrium_from(world, forces, &[])
+    }
+
+    /// Moves cables and bodies to static equilibrium as
+    /// [`equilibrium_under`](Self::equilibrium_under) does, of cables that were `drawn` otherwise
+    /// than they are now: that is the side on which they must be found of what they touch.
+    ///
+    /// # Errors
+    /// As [`equilibrium_under`](Self::equilibrium_under).
+    pub fn equilibrium_from(
+        &mut self,
+        world: &mut PhysicsWorld,
+        forces: &[BodyForce],
+        drawn: &[(CableHandle, Cable)],
+    ) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;
         let options = EquilibriumOptions::default();
-        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, forces, options)
+        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, (forces, drawn), options)
+    }
+
+    /// Looks whether cables are on the side of what they touch on which they were `drawn`: after
+    /// each was moved to equilibrium by itself.
+    ///
+    /// # Errors
+    /// [`Error::CablesPassInStatics`].
+    pub fn check_drawn(&self, world: &PhysicsWorld, drawn: &[(CableHandle, Cable)]) -> Result<(), Error> {
+        statics::check_drawn(&self.contents, &self.stepper.finder, world, drawn)
     }
 
     /// Moves a cable that is not in the set to static equilibrium, at its supports, before it is

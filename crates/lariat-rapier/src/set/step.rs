@@ -54,7 +54,11 @@ impl CableSet {
     pub fn begin(&mut self, world: &mut PhysicsWorld) -> Result<HostStep, Error> {
         world_mark::check(&mut self.contents, world)?;
         slack::draw_all_outside(&mut self.contents, world)?;
-        step::begin(&mut self.stepper, &mut self.contents, world, &self.settings)
+        let host = step::begin(&mut self.stepper, &mut self.contents, world, &self.settings)?;
+        if host.is_unfinished() {
+            warnings::introduce(&mut self.contents, world);
+        }
+        Ok(host)
     }
 
     /// Predicts the next Rapier step of a host step: integrates cables and their bodies, and gives

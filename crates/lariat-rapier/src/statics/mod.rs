@@ -15,12 +15,14 @@
 //! after the search. Cables with contact lie, without friction, on the colliders of all bodies that
 //! stay where they are: fixed, kinematic, and dynamic ones that do not move with cables. One that
 //! would run through a collider, over a sharp edge or something thin that its samples do not see,
-//! is an error. Contact of cables with each other, and with bodies that they move, takes no part. A
-//! cable alone may end in an indifferent shape, which its report says.
+//! is an error. Contact of cables with each other, and with bodies that they move, takes no part: a
+//! shape beyond what was drawn beside it is an [error](passed). A reel holds by no more than its
+//! largest force. A cable alone may end in an indifferent shape, which its report says.
 
 mod contacts;
 mod joints;
 mod multibody;
+mod passed;
 mod report;
 mod solve;
 mod write;
@@ -33,10 +35,12 @@ use crate::body::{give_mass, is_integrated};
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::error::Error;
+use crate::handle::CableHandle;
 use crate::islands::Islands;
 use crate::step::{self, reels};
 use contacts::check_contacts;
 use lariat_ancf::{Cable, EquilibriumOptions, EquilibriumReport};
+use passed::{Moved, check_passed};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Pose;
 use rapier::pipeline::PhysicsWorld;
@@ -50,12 +54,30 @@ pub(crate) fn among(finder: &mut Finder, world: &PhysicsWorld, cable: &mut Cable
     cable.equilibrium().map_err(name_collider)
 }
 
+/// Returns a cable as it was drawn, which is as it is now if nothing else is known.
+fn start<'a>(contents: &'a Contents, drawn: &'a [(CableHandle, Cable)], index: usize) -> Option<&'a Cable> {
+    let known = drawn.iter().find(|(cable, _)| cable.0 as usize == index).map(|(_, cable)| cable);
+    known.or_else(|| contents.cables.get(index).map(|slot| &slot.cable))
+}
+
+/// Refuses cables of a set that are beyond what they touch, seen from how they were drawn.
+pub(crate) fn check_drawn(
+    contents: &Contents,
+    finder: &Finder,
+    world: &PhysicsWorld,
+    drawn: &[(CableHandle, Cable)],
+) -> Result<(), Error> {
+    let cables = contents.cables.iter();
+    let moved = cables.filter_map(|(index, slot)| Some(Moved::new(index, start(contents, drawn, index)?, &slot.cable)));
+    check_passed(contents, finder, world, moved.collect(), &[])
+}
+
 /// Moves cables and the dynamic bodies attached to them to static equilibrium.
 pub(crate) fn equilibrium(
     contents: &mut Contents,
     finder: &mut Finder,
     world: &mut PhysicsWorld,
-    forces: &[BodyForce],
+    (forces, drawn): (&[BodyForce], &[(CableHandle, Cable)]),
     options: EquilibriumOptions,
 ) -> Result<Equilibrium, Error> {
     contents.follow_gravity(world)?;
@@ -75,6 +97,9 @@ pub(crate) fn equilibrium(
     }
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;
+    let found = solved.iter().flat_map(|s| s.island.cables.iter().zip(&s.cables));
+    let moved = found.filter_map(|(&index, found)| Some(Moved::new(index, start(contents, drawn, index)?, found)));
+    check_passed(contents, finder, world, moved.collect(), &poses)?;
     for a in contents.attachments.values() {
         if !is_integrated(world, a.body) && !out.held.contains(&a.body) {
             out.held.push(a.body);

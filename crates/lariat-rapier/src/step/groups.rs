@@ -125,6 +125,7 @@ fn watch(
 ) {
     let impulses = group.impulses(predicted);
     let time = contents.cables.get(island.cables[0]).map_or(0.0, |slot| slot.cable.time());
+    let joints = parts[0].mechanism.joint_gap(world);
     let of = |v: &DVector<f64>, k: usize| v.fixed_rows::<6>(6 * k).into_owned();
     for (k, part) in parts.iter().enumerate() {
         let body = &prediction.end[part.m];
@@ -145,6 +146,7 @@ fn watch(
             deviation: of(deviation, k),
             pull: of(&impulses, k) - given + motors,
             read,
+            joints,
             gravity: vector(world.gravity).norm() * h,
             h,
             time,

@@ -6,7 +6,8 @@
 //! Therefore the time until sleep starts anew as long as a cable or a body of the island is faster
 //! than
 //! [`Settings::sleep_speed`](crate::Settings), the force at an attachment changes by more than
-//! [`STEADY_FORCE_CHANGE`] from its value when that time began, a load ramps, a flow changes, or an
+//! [`STEADY_FORCE_CHANGE`] from its value when that time began, a twist changes by more than
+//! [`SLEEP_SPIN`], a load ramps, a flow changes, or an
 //! end moves. A cable on which a force per length of a program depends on time never sleeps.
 //!
 //! An island whose bodies all sleep is not stepped; only its clock advances. It wakes up when one
@@ -27,7 +28,7 @@ use crate::contents::Contents;
 use crate::events::Event;
 use crate::handle::CableHandle;
 use crate::islands::Island;
-use crate::scales::step::STEADY_FORCE_CHANGE;
+use crate::scales::step::{SLEEP_SPIN, STEADY_FORCE_CHANGE};
 use lariat_ancf::coupling::Coupling;
 use rapier::pipeline::PhysicsWorld;
 
@@ -132,5 +133,8 @@ fn is_steady(contents: &Contents, island: &Island) -> bool {
 /// and what acts on them stays the same for `h` (s).
 fn is_quiet(contents: &Contents, island: &Island, (h, speed): (f64, f64)) -> bool {
     let mut cables = island.cables.iter().filter_map(|&c| contents.cables.get(c)).map(|slot| &slot.cable);
-    cables.all(|cable| cable.speed() < speed && cable.is_loaded_steadily(h) && cable.is_held_still())
+    cables.all(|cable| {
+        let slow = cable.speed() < speed && cable.spin_rate() < SLEEP_SPIN;
+        slow && cable.is_loaded_steadily(h) && cable.is_held_still()
+    })
 }

@@ -22,6 +22,7 @@ mod hoist;
 mod host_steps;
 mod joints;
 mod lever;
+mod light_links;
 mod moving_ends;
 mod payload;
 mod prescribed_motion;

@@ -224,6 +224,53 @@ fn shocks_and_gaps_of_attachments_are_told() {
     assert!(warnings.iter().any(open), "{warnings:?}");
 }
 
+/// Keeps what is logged.
+struct Lines(std::sync::Mutex<Vec<String>>);
+
+static LINES: Lines = Lines(std::sync::Mutex::new(Vec::new()));
+
+impl log::Log for Lines {
+    fn enabled(&self, _: &log::Metadata) -> bool {
+        true
+    }
+    fn log(&self, record: &log::Record) {
+        self.0.lock().unwrap().push(record.args().to_string());
+    }
+    fn flush(&self) {}
+}
+
+/// What is wrong with how cables begin is logged once, by a program that asks for nothing: a rope through a wall, a shock, an impact that
+/// returns more than it can. What nothing is wrong with is not.
+#[test]
+fn what_is_wrong_at_the_start_is_logged_once() {
+    log::set_logger(&LINES).unwrap();
+    log::set_max_level(log::LevelFilter::Warn);
+    let mut world = PhysicsWorld::new();
+    let mut set = CableSet::new();
+    let mut add = |name: &str, x: f64| {
+        let rope = cable([x, 0.0, 0.0], [x, -2.0, 0.0], soft()).name(name).elements(8).fix(At::Start);
+        set.insert(rope.build().unwrap())
+    };
+    add("through-a-wall", 0.0);
+    add("right", 6.0);
+    let (shock, bounce) = (add("with-a-shock", 2.0), add("that-bounces", 4.0));
+    world.insert_collider(ColliderBuilder::cuboid(0.2, 0.2, 0.2).translation(Vector::new(0.0, -1.0, 0.0)), None);
+    let load = add_cube(&mut world, 5.0, 0.1, [2.0, -2.1, 0.0]);
+    world.bodies[load].set_linvel(Vector::new(0.0, -0.5, 0.0), true);
+    set.attach(&world, shock, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    world.insert_collider(ColliderBuilder::ball(0.2).translation(Vector::new(4.5, -1.0, 0.0)).restitution(1.0), None);
+    set.set_contact(bounce, Contact::default().with_radius(0.01).with_restitution(1.0)).unwrap();
+    let expected = set.warnings(&world);
+    assert_eq!(expected.len(), 3, "{expected:?}");
+    run(&mut world, &mut set, 5);
+    let lines = LINES.0.lock().unwrap();
+    for warning in &expected {
+        let line = warning.to_string();
+        assert_eq!(lines.iter().filter(|other| **other == line).count(), 1, "{line}: {lines:#?}");
+    }
+    assert!(!lines.iter().any(|line| line.contains("\"right\"")), "{lines:#?}");
+}
+
 /// An anchor 1 m from the cable that is to close is never met after one step, and is met later.
 #[test]
 fn a_gap_that_is_still_to_close_is_told_when_asked_for() {
@@ -262,4 +309,29 @@ fn a_body_that_is_put_elsewhere_is_told_as_a_gap() {
         let told = set.warnings(&world);
         assert!(matches!(told[..], [Warning::OpenGap { .. }]), "{told:?}");
     }
+}
+
+/// An anchor in the axes of the world, and a world in another unit, are told; and neither where they are as they should be.
+#[test]
+fn far_anchors_and_other_units_are_told() {
+    let kinds = |anchor: f64, unit: Real| {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.length_unit = unit;
+        let mut set = CableSet::new();
+        let rope = set.insert(cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).build().unwrap());
+        let cube = add_cube(&mut world, 10.0, 0.1, [0.0, -2.0 - anchor as Real, 0.0]);
+        set.attach(&world, rope, At::End, cube, Vector::new(0.0, anchor as Real, 0.0), AttachmentKind::Ball).unwrap();
+        let kind = |warning: &Warning| match warning {
+            Warning::FarAnchor { distance, .. } => {
+                assert!((distance / anchor - 1.0).abs() < 1e-6, "{warning}");
+                Some("anchor")
+            }
+            Warning::LengthUnit { .. } => Some("unit"),
+            _ => None,
+        };
+        set.warnings(&world).iter().filter_map(kind).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(0.1, 1.0), Vec::<&str>::new());
+    assert_eq!(kinds(0.1, 100.0), ["unit"]);
+    assert_eq!(kinds(2.0, 1.0), ["anchor"]);
 }

@@ -82,9 +82,13 @@ fn claim(summary: &Summary) -> String {
 fn cable(statics: &CableStatics) -> String {
     let stable = if statics.stable { "stable" } else { "unstable or indifferent" };
     let sag = statics.sag_m.map_or(String::new(), |sag| format!(", sag {} m", short(sag)));
+    let friction = match statics.friction_n {
+        0.0 => String::new(),
+        held => format!("\n  without friction, which could hold {held:.1e} N along it"),
+    };
     let jump = statics.tension_jump_n.map_or(String::new(), |jump| format!(" +- {jump:.1e}"));
     let mut text = format!(
-        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {}{jump} N at {} m{sag}\n",
+        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {}{jump} N at {} m{sag}{friction}\n",
         statics.name,
         statics.residual_n,
         statics.iterations,

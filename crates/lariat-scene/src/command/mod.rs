@@ -12,6 +12,7 @@ pub use keys::print as keys;
 pub use tables::rules;
 
 use crate::run::{self, Options, State, Summary};
+use crate::signed::Comment;
 use crate::{Error, Purpose, Scene};
 use clap::{Args, Parser, Subcommand};
 use lariat_ancf::Level;
@@ -50,7 +51,7 @@ enum Command {
     Import {
         /// Model (MJCF, .xml)
         model: PathBuf,
-        /// Write the scene to this file instead
+        /// Write the scene to this file instead; one that an import wrote, and nobody changed, is replaced
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
@@ -205,9 +206,12 @@ fn find_static(arguments: &SceneArguments) -> Result<Summary, Error> {
 
 fn import(model: &Path, out: Option<&Path>) -> Result<String, Error> {
     let text = crate::read_text(model)?;
-    let scene = crate::mjcf::import(&model.display().to_string(), &text)?;
-    let Some(out) = out else { return Ok(scene) };
-    std::fs::write(out, scene).map_err(|source| Error::Output { path: out.to_path_buf(), source })?;
+    let import = crate::mjcf::read(&model.display().to_string(), &text)?;
+    for note in &import.notes {
+        warn(&note.to_string());
+    }
+    let Some(out) = out else { return Ok(import.scene) };
+    crate::signed::write(out, &import.scene, Comment::HASH)?;
     Ok(format!("scene: {}\n", out.display()))
 }
 

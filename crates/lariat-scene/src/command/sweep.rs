@@ -45,9 +45,10 @@ pub fn run(arguments: &SweepArguments) -> Result<String, Error> {
     };
     let rows = sweep::sweep(&source, &points, Some(&store), &stop, &each)?;
     bar.finish_and_clear();
-    let table = sweep::write_table(&arguments.out, &rows)?;
     let failed = rows.iter().filter(|row| row.error.is_some()).count();
     let known = points.iter().filter(|point| store.done(point).is_some()).count();
+    drop(store);
+    let table = sweep::write_table(&arguments.out, &rows)?;
     let missing = points.len() - rows.len();
     let mut text =
         format!("{} runs: {failed} failed, {known} were done before\ntable: {}\n", rows.len(), table.display());

@@ -3,7 +3,7 @@
 
 /// Most levels of elements: a cable of MuJoCo is a chain of nested bodies only after its compilation, and a model that is
 /// written by hand or exported has a level for each joint of an arm.
-const LEVELS: usize = 256;
+pub(super) const LEVELS: usize = 256;
 /// Most attributes of an element: MuJoCo's own schema has at most 40.
 const ATTRIBUTES: usize = 256;
 

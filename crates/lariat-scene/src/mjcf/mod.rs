@@ -1,171 +1,242 @@
-//! Cables of MuJoCo models (MJCF): `<composite type="cable">` and `<flexcomp dim="1">`, as a scene.
+//! Models of MuJoCo (MJCF) with `<composite type="cable">` and `<flexcomp dim="1">`, as a scene.
 //!
 //! | MuJoCo | scene |
 //! |---|---|
 //! | vertices of a composite (`vertex`, or `curve`, `count`, `size`, `offset`, `quat`) | `points`; one element per segment |
-//! | `bend` of its plugin, or `young`, and the geom | `youngs_modulus` and section, or EA and EI |
-//! | `density` or `mass` of the geom | `density`, or mass per length |
-//! | `initial` ball or none; `connect` and `weld` of its last body to the world | attachments to the world |
+//! | a composite that is drawn with bends and not `flat` | points on the smooth curve through the vertices, `rest_shape` |
+//! | `bend` of its plugin, and the geom | `youngs_modulus` and section; `density` is that of the mass with the ends of capsules |
+//! | `mass` of the geom, `stiffness` of the joint | EA, EI + stiffness x segment, mass per length |
+//! | `initial` ball or none | attachment to the world or to its body |
 //! | `damping` of its joint | `damping.bending`, as the time that the same torque per turn gives |
-//! | vertices of a flexcomp (`count`, `spacing`, or `point`), `pin` | `points`, attachments of ends to the world |
-//! | `stiffness` of its edge | EA = stiffness x edge length; no bending |
+//! | vertices of a flexcomp (`count`, `spacing`, or `point`), `pin` | `points`, attachments |
+//! | `stiffness` and `damping` of its edge | EA = stiffness x edge length; `damping.axial` = damping/stiffness; no bending |
+//! | bodies without joints, with `mocap`, with joints | fixed shapes, kinematic and dynamic bodies |
+//! | `joint` hinge, slide, ball; a body without a joint on a moving one | joints |
+//! | `connect` and `weld` of bodies or sites | attachments, junctions, joints |
+//! | `density` and `wind` of the option | `drag` with the sides of MuJoCo's box of inertia |
+//! | `contype`, `conaffinity`, `condim`, `friction` | `contact` of cables, shapes of bodies, friction |
 //!
 //! # Validity
 //!
-//! A composite of MuJoCo does not stretch; here it has the axial stiffness of its material. Twist is left out: Lariat has none. Geometry that
-//! stands still around a cable is applied to its points; a cable on a body with joints, and everything else that would change the
-//! motion of the cable, is an error. Bodies, sensors and drawing are left out, with a note for bodies with joints.
+//! A composite of MuJoCo does not stretch; here it has the axial stiffness of its material. Twist is left out. `known.txt`
+//! lists all of MuJoCo's schema: what is in no list is an error with file, line, element and attribute; what is left out is
+//! a warning, and a comment of the scene; what would change the shape of an equilibrium is refused.
 //!
 //! # References
 //!
-//! MuJoCo documentation, XML reference, body/composite and body/flexcomp; vertices are checked against MuJoCo 3.17
-//! (`crates/lariat-python/tests/test_mjcf.py`).
+//! MuJoCo documentation, XML reference; its engine's inertia-box model of fluids. Motions are compared with those of MuJoCo
+//! 3.17 (`tests/mjcf`), vertices by `crates/lariat-python/tests/test_mjcf.py`.
 
+mod bodies;
+mod cable;
 mod composite;
+mod curve;
+mod defaults;
 mod flexcomp;
+mod geom;
+mod holds;
+mod idle;
+mod known;
 mod limits;
 mod read;
+mod surface;
+mod tree;
+mod write;
 
 use crate::error::Error;
+use crate::scene::{Purpose, Scene};
+use bodies::{Body, Frame, Joint, Listed};
+use cable::{Cable, Hold};
+use holds::Tie;
 use nalgebra::{Isometry3, Vector3};
-use read::Reader;
-use roxmltree::{Document, Node};
-use std::fmt::Write as _;
+use read::Angles;
+use std::collections::{HashMap, HashSet};
+use std::fmt;
+use tree::Element;
 
-/// A cable of a model.
-struct Imported {
-    name: String,
-    points: Vec<Vector3<f64>>,
-    material: String,
-    /// Points held by the world: arc length names, and whether the tangent is held.
-    holds: Vec<(&'static str, bool)>,
-    damping: Option<f64>,
-    /// Name prefix of the bodies of a composite, for equality constraints.
-    prefix: Option<String>,
+/// What of a model is left out of its scene, and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Note {
+    /// File and line; empty for the whole model.
+    pub place: String,
+    /// What is left out, or differs.
+    pub text: String,
 }
 
-/// Reads the cables of a model, and returns a scene in TOML; `file` is its name in errors.
+impl Note {
+    fn at(element: &Element, text: impl Into<String>) -> Self {
+        let place = format!("{}:{}", element.file, element.line);
+        Note { place, text: format!("<{}>: {}", element.name, text.into()) }
+    }
+
+    fn whole(text: impl Into<String>) -> Self {
+        Note { place: String::new(), text: text.into() }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.place.is_empty() { write!(out, "{}", self.text) } else { write!(out, "{}: {}", self.place, self.text) }
+    }
+}
+
+/// A scene that was made of a model.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Import {
+    /// The scene, TOML.
+    pub scene: String,
+    /// What of the model is left out of it; comments of the scene have the same.
+    pub notes: Vec<Note>,
+}
+
+/// Reads the cables of a model with its bodies, and returns a scene in TOML; `file` is its name in errors. Files that it
+/// includes are read from the folder of `file`.
+///
+/// # Errors
+/// As [`read`].
+pub fn import(file: &str, text: &str) -> Result<String, Error> {
+    read(file, text).map(|import| import.scene)
+}
+
+/// Reads a model as [`import`] does, and returns what is left out of the scene, too.
 ///
 /// # Errors
 /// [`Error::Import`] for a file that is not XML, that nests elements deeper than 256 or gives one more than 256 attributes,
-/// without cables, or with what cannot be imported right.
-pub fn import(file: &str, text: &str) -> Result<String, Error> {
-    let reader = Reader { file };
-    limits::check(text).map_err(|(line, problem)| reader.error(line, problem))?;
-    let document = Document::parse(text).map_err(|error| reader.error(0, format!("not XML: {error}")))?;
-    let root = document.root_element();
-    if root.tag_name().name() != "mujoco" {
-        return Err(reader.error(1, "not a model of MuJoCo: its root is not <mujoco>".to_string()));
+/// without cables, with an element or attribute that is not known, or with what cannot be imported right.
+pub fn read(file: &str, text: &str) -> Result<Import, Error> {
+    let mut root = tree::read(file, text)?;
+    let mut notes = Vec::new();
+    defaults::apply(&mut root)?;
+    known::check(&root, &mut notes)?;
+    let mut importer = Importer::new(&root, notes)?;
+    importer.model(&root)?;
+    if importer.cables.is_empty() {
+        return Err(root.error("no <composite type=\"cable\"> and no <flexcomp dim=\"1\">".to_string()));
     }
-    reader.check_whole(root)?;
-    let mut cables = Vec::new();
-    for world in children(root, "worldbody") {
-        reader.body(world, Isometry3::identity(), false, &mut cables)?;
-    }
-    for equality in children(root, "equality") {
-        reader.equality(equality, &mut cables)?;
-    }
-    if cables.is_empty() {
-        return Err(reader.error(1, "no <composite type=\"cable\"> and no <flexcomp dim=\"1\">".to_string()));
-    }
-    let option = children(root, "option").next();
-    let gravity = match option.and_then(|option| option.attribute("gravity").map(|text| (option, text))) {
-        Some((option, text)) => reader.vector(option, "gravity", text)?,
-        None => Vector3::new(0.0, 0.0, -9.81),
-    };
-    Ok(scene(file, &gravity, &cables))
+    let scene = importer.scene(file);
+    // what no rule above saw: a scene that is none
+    Scene::parse("scene", &scene, &[], Purpose::Run)
+        .map_err(|error| root.error(format!("the scene that it makes is refused: {error}")))?;
+    Ok(Import { scene, notes: importer.notes })
 }
 
-/// Returns the elements of a name.
-fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(move |child| child.tag_name().name() == name)
+/// What the options of a model say.
+#[derive(Default)]
+struct Options {
+    angles: Angles,
+    gravity: Vector3<f64>,
+    density: f64,
+    viscosity: f64,
+    wind: Vector3<f64>,
+    no_contact: bool,
+    no_equality: bool,
+    inertia_from_geoms: bool,
 }
 
-impl Reader<'_> {
-    /// Refuses what changes the meaning of all numbers.
-    fn check_whole(&self, root: Node<'_, '_>) -> Result<(), Error> {
-        for node in root.descendants().filter(Node::is_element) {
-            let name = node.tag_name().name();
-            if name == "include" {
-                return Err(self.wrong(node, "is not read: save the model in one file (mj_saveLastXML)"));
+/// A scene in the making.
+struct Importer {
+    options: Options,
+    notes: Vec<Note>,
+    surfaces: Vec<Listed>,
+    frames: Vec<Frame>,
+    /// Body and point in the world of each site, in m.
+    sites: HashMap<String, (usize, Vector3<f64>)>,
+    names: HashSet<String>,
+    bodies: Vec<Body>,
+    joints: Vec<Joint>,
+    cables: Vec<Cable>,
+    holds: Vec<Hold>,
+    ties: Vec<Tie>,
+}
+
+impl Importer {
+    fn new(root: &Element, notes: Vec<Note>) -> Result<Self, Error> {
+        let mut options = Options { gravity: Vector3::new(0.0, 0.0, -9.81), ..Options::default() };
+        for compiler in root.named("compiler") {
+            if compiler.has("angle") {
+                options.angles.degrees = compiler.word("angle", &["degree", "radian"])? == "degree";
             }
-            let defaults =
-                name == "default" && node.children().any(|c| ["geom", "joint"].contains(&c.tag_name().name()));
-            if defaults && root.descendants().any(|n| n.tag_name().name() == "composite") {
-                return Err(self.wrong(node, "defaults are not read: write the values at the cable"));
+            if let Some(sequence) = compiler.attribute("eulerseq") {
+                if sequence.len() != 3 || !sequence.chars().all(|axis| "xyzXYZ".contains(axis)) {
+                    return Err(compiler.wrong(format!("eulerseq = {sequence:?}: needs three of x, y, z, X, Y, Z")));
+                }
+                options.angles.sequence = sequence.to_string();
+            }
+            if compiler.has("inertiafromgeom") {
+                options.inertia_from_geoms = compiler.word("inertiafromgeom", &["auto", "true", "false"])? == "true";
             }
         }
+        for option in root.named("option") {
+            options.gravity = option.vector("gravity")?.unwrap_or(options.gravity);
+            options.wind = option.vector("wind")?.unwrap_or(options.wind);
+            options.density = option.number("density")?.unwrap_or(options.density);
+            options.viscosity = option.number("viscosity")?.unwrap_or(options.viscosity);
+            if options.density < 0.0 || options.viscosity < 0.0 {
+                return Err(option.wrong("density or viscosity is negative"));
+            }
+        }
+        for flag in root.named("option").flat_map(|option| option.named("flag")) {
+            let off = |key| flag.word(key, &["enable", "disable"]).map(|word| word == "disable");
+            options.no_contact |= off("contact")? || off("constraint")?;
+            options.no_equality |= off("equality")? || off("constraint")?;
+            if off("gravity")? {
+                options.gravity = Vector3::zeros();
+            }
+        }
+        Ok(Importer {
+            options,
+            notes,
+            surfaces: Vec::new(),
+            frames: Vec::new(),
+            sites: HashMap::new(),
+            names: ["world", "all"].map(str::to_string).into(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            cables: Vec::new(),
+            holds: Vec::new(),
+            ties: Vec::new(),
+        })
+    }
+
+    fn model(&mut self, root: &Element) -> Result<(), Error> {
+        let Some(world) = root.named("worldbody").next() else { return Ok(()) };
+        self.list_surfaces(world, false, &mut 0)?;
+        self.body(world, Isometry3::identity(), None)?;
+        let children = |name: &'static str| root.named(name).flat_map(|section| &section.children);
+        children("equality").try_for_each(|element| self.equality(element))?;
+        children("actuator").try_for_each(|element| self.actuator(element))?;
+        children("tendon").for_each(|element| self.tendon(element));
+        children("contact").for_each(|element| self.exclude(element));
         Ok(())
     }
 
-    fn body(
-        &self,
-        body: Node<'_, '_>,
-        place: Isometry3<f64>,
-        moves: bool,
-        cables: &mut Vec<Imported>,
-    ) -> Result<(), Error> {
-        for child in body.children().filter(Node::is_element) {
-            let name = child.tag_name().name();
-            let is_cable = name == "composite" && child.attribute("type") == Some("cable")
-                || name == "flexcomp" && child.attribute("dim") == Some("1");
-            if is_cable && moves {
-                return Err(
-                    self.wrong(child, "is on a body with joints: build the body in the scene, and attach the cable")
-                );
-            }
-            match name {
-                "body" => {
-                    let free = ["joint", "freejoint"]
-                        .iter()
-                        .any(|joint| child.children().any(|c| c.tag_name().name() == *joint));
-                    self.body(child, place * self.place(child, "pos")?, moves || free, cables)?;
-                }
-                "frame" => self.body(child, place * self.place(child, "pos")?, moves, cables)?,
-                "composite" if is_cable => cables.push(self.composite(child, &place)?),
-                "flexcomp" if is_cable => cables.push(self.flexcomp(child, &place)?),
-                "composite" | "flexcomp" | "replicate" => {
-                    return Err(
-                        self.wrong(child, "is not read: only composites of type cable and flexcomps of dim 1 are")
-                    );
-                }
-                _ => {}
-            }
+    /// Judges a pair that does not touch in MuJoCo.
+    fn exclude(&mut self, element: &Element) {
+        let [a, b] = ["body1", "body2"].map(|key| element.attribute(key).unwrap_or_default());
+        let held = self.holds.iter().any(|hold| {
+            let is = |name: &str| self.cables[hold.cable].part(name).is_some();
+            let frame = &self.frames[hold.frame].name;
+            is(a) && b == frame || is(b) && a == frame
+        });
+        // a cable does not touch the body that holds it, near the hold
+        if !held {
+            self.notes.push(Note::at(element, format!("{a} and {b} may touch here")));
         }
-        Ok(())
     }
-}
 
-fn scene(file: &str, gravity: &Vector3<f64>, cables: &[Imported]) -> String {
-    let list = |v: &Vector3<f64>| format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z);
-    let mut text = format!(
-        "# Cables of the MuJoCo model {}\n\nduration = 1.0    # s\ngravity = {}\n",
-        file.replace('\n', " "),
-        list(gravity)
-    );
-    let mut names: Vec<String> = Vec::new();
-    for cable in cables {
-        let mut name = if cable.name.is_empty() { "cable".to_string() } else { cable.name.clone() };
-        while names.contains(&name) {
+    /// Returns the place of an element on its parent.
+    fn local(&self, element: &Element, position: &str) -> Result<Isometry3<f64>, Error> {
+        element.place(position, &self.options.angles)
+    }
+
+    /// Returns a name that no other has.
+    fn free_name(&mut self, wanted: &str, otherwise: &str) -> String {
+        let mut name = if wanted.is_empty() { otherwise.to_string() } else { wanted.to_string() };
+        while !self.names.insert(name.clone()) {
             name.push('\'');
         }
-        let quoted = toml::Value::from(name.as_str()).to_string();
-        let points: Vec<String> = cable.points.iter().map(list).collect();
-        let _ = write!(
-            text,
-            "\n[[cable]]\nname = {quoted}\nelements = {}\npoints = [{}]\n{}\n",
-            cable.points.len() - 1,
-            points.join(", "),
-            cable.material
-        );
-        if let Some(tau) = cable.damping {
-            let _ = writeln!(text, "damping = {{ bending = {tau:?} }}");
-        }
-        for (at, clamp) in &cable.holds {
-            let kind = if *clamp { "kind = \"clamp\"\n" } else { "" };
-            let _ = write!(text, "\n[[attachment]]\ncable = {quoted}\nat = \"{at}\"\nbody = \"world\"\n{kind}");
-        }
-        names.push(name);
+        name
     }
-    text
 }

@@ -1,68 +1,114 @@
-//! Attributes of elements of a model: numbers, vectors and places, with errors that name the line.
+//! Attributes of elements of a model: numbers, vectors, words and places, with errors that name the line.
 
+use super::tree::Element;
 use crate::error::Error;
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use roxmltree::Node;
+use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
-/// Reads attributes; `file` is the name of the model in errors.
-pub(super) struct Reader<'a> {
-    pub file: &'a str,
+/// How a model writes angles, by its `<compiler>`.
+#[derive(Clone, Debug)]
+pub(super) struct Angles {
+    pub degrees: bool,
+    pub sequence: String,
 }
 
-impl Reader<'_> {
-    pub(super) fn error(&self, line: u32, problem: String) -> Error {
-        Error::Import { file: self.file.to_string(), line, problem }
+impl Default for Angles {
+    fn default() -> Self {
+        Angles { degrees: true, sequence: "xyz".to_string() }
     }
+}
 
-    pub(super) fn wrong(&self, node: Node<'_, '_>, problem: impl Into<String>) -> Error {
-        self.error(
-            node.document().text_pos_at(node.range().start).row,
-            format!("<{}>: {}", node.tag_name().name(), problem.into()),
-        )
-    }
-
-    pub(super) fn numbers(&self, node: Node<'_, '_>, key: &str, text: &str) -> Result<Vec<f64>, Error> {
+impl Element {
+    pub fn numbers(&self, key: &str, text: &str) -> Result<Vec<f64>, Error> {
         let number = |word: &str| match word.parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(self.wrong(node, format!("{key}: {word:?} is not a finite number"))),
+            _ => Err(self.wrong(format!("{key}: {word:?} is not a finite number"))),
         };
         text.split_whitespace().map(number).collect()
     }
 
-    pub(super) fn list(&self, node: Node<'_, '_>, key: &str) -> Result<Option<Vec<f64>>, Error> {
-        node.attribute(key).map(|text| self.numbers(node, key, text)).transpose()
+    pub fn list(&self, key: &str) -> Result<Option<Vec<f64>>, Error> {
+        self.attribute(key).map(|text| self.numbers(key, text)).transpose()
     }
 
-    pub(super) fn number(&self, node: Node<'_, '_>, key: &str) -> Result<Option<f64>, Error> {
-        match self.list(node, key)?.as_deref() {
+    /// Returns the first number of an attribute.
+    pub fn number(&self, key: &str) -> Result<Option<f64>, Error> {
+        match self.list(key)?.as_deref() {
             None => Ok(None),
             Some([x, ..]) => Ok(Some(*x)),
-            Some([]) => Err(self.wrong(node, format!("{key} is empty"))),
+            Some([]) => Err(self.wrong(format!("{key} is empty"))),
         }
     }
 
-    pub(super) fn vector(&self, node: Node<'_, '_>, key: &str, text: &str) -> Result<Vector3<f64>, Error> {
-        match self.numbers(node, key, text)?[..] {
-            [x, y, z] => Ok(Vector3::new(x, y, z)),
-            _ => Err(self.wrong(node, format!("{key} needs 3 numbers"))),
+    pub fn vector(&self, key: &str) -> Result<Option<Vector3<f64>>, Error> {
+        match self.list(key)?.as_deref() {
+            None => Ok(None),
+            Some(&[x, y, z]) => Ok(Some(Vector3::new(x, y, z))),
+            Some(_) => Err(self.wrong(format!("{key} needs 3 numbers"))),
         }
     }
 
-    /// Returns the place of a body, composite or flexcomp on its parent.
-    pub(super) fn place(&self, node: Node<'_, '_>, position: &str) -> Result<Isometry3<f64>, Error> {
-        for key in ["euler", "axisangle", "xyaxes", "zaxis"] {
-            if node.has_attribute(key) {
-                return Err(self.wrong(node, format!("{key} is not read: give quat")));
-            }
+    /// Returns one of some words, the first by default.
+    pub fn word<'w>(&self, key: &str, words: &[&'w str]) -> Result<&'w str, Error> {
+        let Some(word) = self.attribute(key) else { return Ok(words[0]) };
+        let found = words.iter().find(|known| **known == word);
+        found.copied().ok_or_else(|| self.wrong(format!("{key} = {word:?} is not read: {} are", words.join(", "))))
+    }
+
+    /// Returns the place of an element on its parent.
+    pub fn place(&self, position: &str, angles: &Angles) -> Result<Isometry3<f64>, Error> {
+        let shift = self.vector(position)?.unwrap_or_default();
+        Ok(Isometry3::from_parts(Translation3::from(shift), self.turn(angles)?.unwrap_or_default()))
+    }
+
+    /// Returns the orientation of an element on its parent, if it has one.
+    pub fn turn(&self, angles: &Angles) -> Result<Option<UnitQuaternion<f64>>, Error> {
+        let given = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
+        let mut keys = given.into_iter().filter(|key| self.has(key));
+        let Some(key) = keys.next() else { return Ok(None) };
+        if let Some(other) = keys.next() {
+            return Err(self.wrong(format!("{key} and {other}: an element has one orientation")));
         }
-        let shift = node.attribute(position).map_or(Ok(Vector3::zeros()), |text| self.vector(node, position, text))?;
-        let turn = match self.list(node, "quat")?.as_deref() {
-            None => UnitQuaternion::identity(),
-            Some(&[w, x, y, z]) if w * w + x * x + y * y + z * z > 0.0 => {
-                UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+        let numbers = self.list(key)?.unwrap_or_default();
+        let angle = |x: f64| if angles.degrees { x.to_radians() } else { x };
+        let unit = |v: Vector3<f64>| Unit::try_new(v, 1e-12);
+        let turn = match (key, &numbers[..]) {
+            ("quat", &[w, x, y, z]) if w * w + x * x + y * y + z * z > 0.0 => {
+                Some(UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)))
             }
-            Some(_) => return Err(self.wrong(node, "quat needs 4 numbers, not all zero")),
+            ("axisangle", &[x, y, z, a]) => {
+                unit(Vector3::new(x, y, z)).map(|axis| UnitQuaternion::from_axis_angle(&axis, angle(a)))
+            }
+            ("euler", &[a, b, c]) => Some(euler(&angles.sequence, [a, b, c].map(angle))),
+            ("xyaxes", &[a, b, c, d, e, f]) => {
+                let x = unit(Vector3::new(a, b, c));
+                let y = x.and_then(|x| unit(Vector3::new(d, e, f) - *x * x.dot(&Vector3::new(d, e, f))));
+                x.zip(y).map(|(x, y)| {
+                    let axes = Matrix3::from_columns(&[*x, *y, x.cross(&y)]);
+                    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
+                })
+            }
+            ("zaxis", &[x, y, z]) => unit(Vector3::new(x, y, z)).map(|axis| to_axis(&axis)),
+            _ => None,
         };
-        Ok(Isometry3::from_parts(Translation3::from(shift), turn))
+        turn.map(Some).ok_or_else(|| self.wrong(format!("{key} = {numbers:?} is no orientation")))
     }
+}
+
+/// Returns the smallest rotation that takes z to an axis; about x for the opposite one.
+pub(super) fn to_axis(axis: &Vector3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::rotation_between(&Vector3::z(), axis)
+        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI))
+}
+
+/// Returns a rotation by Euler angles: about axes that rotate along (xyz) or stand still (XYZ).
+fn euler(sequence: &str, angles: [f64; 3]) -> UnitQuaternion<f64> {
+    sequence.chars().zip(angles).fold(UnitQuaternion::identity(), |turn, (axis, angle)| {
+        let about = match axis.to_ascii_lowercase() {
+            'x' => Vector3::x_axis(),
+            'y' => Vector3::y_axis(),
+            _ => Vector3::z_axis(),
+        };
+        let step = UnitQuaternion::from_axis_angle(&about, angle);
+        if axis.is_ascii_lowercase() { turn * step } else { step * turn }
+    })
 }

@@ -36,6 +36,13 @@ impl Physics {
                 );
                 Error::Body { time, body, problem }
             }
+            lariat_rapier::Error::CablePassesBodyInStatics { cable, body, arc_length } => {
+                let problem = format!(
+                    "cable {cable:?} would be in it or pass through it, near {arc_length:.4} m, from where it is drawn to where it would rest: \
+                     statics compute no contact of cables with bodies that they move: run the scene until it rests"
+                );
+                Error::Body { time, body: name(body).unwrap_or_default(), problem }
+            }
             source => Error::Coupling { time, source },
         }
     }

@@ -27,7 +27,7 @@ impl Physics {
     ///
     /// # Errors
     /// [`Error::Mechanics`] without an equilibrium, [`Error::Body`] for a body with a contact, or a joint that statics do not compute.
-    pub fn settle(&mut self, scene: &Scene, fully: bool) -> Result<Settled, Error> {
+    pub fn settle(&mut self, scene: &Scene, fully: bool, drawn: Vec<Cable>) -> Result<Settled, Error> {
         self.script.full_loads = fully;
         let acting = scene.body_loads.iter().filter(|load| fully || load.load.ramp == 0.0);
         let force = |load: &BodyLoadScene| BodyForce {
@@ -45,9 +45,19 @@ impl Physics {
             let (_, moment) = load.at(0.0, fully);
             self.world.bodies[self.bodies[load.body]].add_torque(to_vector(&moment), true);
         }
-        let found = self.cables.equilibrium_under(&mut self.world, &forces);
+        let drawn: Vec<_> = self.handles.iter().copied().zip(drawn).collect();
+        let found = self.cables.equilibrium_from(&mut self.world, &forces, &drawn);
         let found = found.map_err(|error| self.explain(scene, 0.0, error))?;
         self.settled(scene, &found)
+    }
+
+    /// Looks whether the cables, each of which found an equilibrium by itself, are on the side of each other on which they were drawn.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`] with the names of two that are not.
+    pub fn check_drawn(&self, scene: &Scene, drawn: Vec<Cable>) -> Result<(), Error> {
+        let drawn: Vec<_> = self.handles.iter().copied().zip(drawn).collect();
+        self.cables.check_drawn(&self.world, &drawn).map_err(|error| self.explain(scene, 0.0, error))
     }
 
     /// Moves a cable that is not yet attached to equilibrium, with all bodies held where they are

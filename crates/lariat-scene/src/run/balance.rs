@@ -29,6 +29,8 @@ pub(super) struct Terms {
     pub dissipated: f64,
     /// Work on cables, but that of damping and drag.
     pub work: f64,
+    /// Work of the forces by which joints and contacts take part in the energy law: on bodies, where these are predicted.
+    pub reactions: f64,
     /// Whether a cable has contact and a reel: its works are not all known.
     pub unknown: bool,
     /// Energy that the discrete gradient made, less what it lost; only if all cables step by it.
@@ -72,7 +74,7 @@ impl Account {
         // an island that changed its integrator changed which account has the forces on its bodies
         for (now, last_body) in now.bodies.iter().zip(&mut last.bodies) {
             let moved = last_body.gravity - last_body.loads;
-            last.work += moved * (f64::from(now.in_law) - f64::from(last_body.in_law));
+            last.reactions += moved * (f64::from(now.in_law) - f64::from(last_body.in_law));
             last_body.in_law = now.in_law;
         }
         let cables = |t: &Terms| t.kinetic + t.strain + t.gravity + t.dissipated - t.work;
@@ -88,11 +90,15 @@ impl Account {
             }
         }
         let by_law = now.by_law.zip(last.by_law).map(|(now, last)| now - last);
-        change = by_law.unwrap_or(change);
+        if let Some(by_law) = by_law {
+            change = by_law;
+            work += now.reactions - last.reactions;
+        }
         let sum = |t: &Terms, of: fn(&BodyTerms) -> f64| t.bodies.iter().map(of).sum::<f64>();
         let kinetic = now.kinetic + sum(&now, |body| body.kinetic);
         let gravity = |t: &Terms| t.gravity + sum(t, |body| body.gravity);
         balance.work_j += work;
+        let dissipated = now.dissipated - last.dissipated;
         balance.dissipated_j = now.dissipated - start.dissipated;
         let held = kinetic + now.strain.abs() + now.gravity.abs();
         let bodies = sum(&now, |body| body.kinetic + body.gravity.abs());
@@ -107,7 +113,7 @@ impl Account {
             weight: now.weight,
             stiffness: now.stiffness,
         };
-        balance.add(world.time(), change, by_law.is_some(), &sizes);
+        balance.add(world.time(), change, by_law.map_or(0.0, |_| dissipated), &sizes);
         *last = now;
         Ok(())
     }

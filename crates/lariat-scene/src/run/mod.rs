@@ -36,7 +36,6 @@
 mod balance;
 mod error_target;
 mod fine;
-mod folder;
 mod hinges;
 mod output;
 mod parts;

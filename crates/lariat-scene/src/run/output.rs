@@ -1,19 +1,16 @@
 //! Where the samples of a run go: to a folder, as `probes/NAME.csv`, `view.html` and `summary.json`, or to memory.
 //!
 //! Numbers are the shortest text that reads back to the same f64. Every row is written to the file at once. The names of all files
-//! of a run are kept in `.lariat-files`, so that the next run into the same folder removes these and no others: a file that
-//! is in the way and not in the list is an error. The list is locked while a run writes, so that two runs do not share a folder.
+//! of a run are kept in the list of a [folder](crate::folder), so that the next run removes these and no others.
 
-use super::folder::Folder;
 use super::state::State;
 use super::{Summary, World, probe};
 use crate::error::Error;
+use crate::folder::{Folder, OwnFile};
 use crate::scene::Scene;
 use crate::view::Recorder;
 use std::fmt::Write as _;
-use std::fs::{self, File};
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 const SUMMARY: &str = "summary.json";
@@ -35,19 +32,11 @@ pub(super) struct Extras {
     pub state: bool,
 }
 
-/// The file of a probe.
-struct ProbeFile {
-    path: PathBuf,
-    file: File,
-    /// Bytes of whole rows.
-    length: u64,
-}
-
 /// Where rows are written.
 enum Sink {
     Folder {
         folder: Folder,
-        files: Vec<ProbeFile>,
+        files: Vec<OwnFile>,
         text: String,
         extras: Extras,
     },
@@ -73,25 +62,18 @@ pub(super) struct Kept {
 impl Output {
     /// Creates the folder and its files with their headers. Files that the last run wrote there are removed.
     pub fn create(scene: &Scene, folder: &Path, extras: Extras) -> Result<Self, Error> {
-        let names = scene.probes.iter().map(|probe| format!("{PROBES}/{}.csv", probe.name));
+        let names = scene.probes.iter().map(|probe| probe_file(&probe.name));
         let Extras { svg, usd, state } = extras;
         let asked =
             [(svg, SVG), (usd, USD), (state, STATE)].into_iter().filter(|(asked, _)| *asked).map(|(_, name)| name);
         let own = [SUMMARY, PAGE].into_iter().chain(asked).map(String::from);
-        let folder = Folder::take(folder, &own.chain(names).collect::<Vec<_>>(), is_result)?;
-        let fail = |path: &Path| {
-            let path = path.to_path_buf();
-            move |source| Error::Output { path, source }
-        };
-        let probes = folder.file(PROBES);
-        fs::create_dir_all(&probes).map_err(fail(&probes))?;
+        let folder = Folder::take(folder, &own.chain(names).collect::<Vec<_>>())?;
         let mut files = Vec::new();
         for p in &scene.probes {
-            let path = probes.join(format!("{}.csv", p.name));
-            let mut file = File::create(&path).map_err(fail(&path))?;
+            let name = probe_file(&p.name);
             let header = probe::columns(p.target).join(",") + "\n";
-            file.write_all(header.as_bytes()).map_err(fail(&path))?;
-            files.push(ProbeFile { path, file, length: header.len() as u64 });
+            let created = folder.create(&name).and_then(|mut file| file.append(header.as_bytes()).map(|()| file));
+            files.push(created.map_err(|source| Error::Output { path: folder.file(&name), source })?);
         }
         let sink = Sink::Folder { folder, files, text: String::new(), extras };
         Ok(Output { sink, view: Recorder::new(scene), row: Vec::new() })
@@ -139,23 +121,24 @@ impl Output {
     pub fn finish(self, summary: &Summary, world: &World) -> Result<Kept, Error> {
         let Output { sink, mut view, .. } = self;
         view.close(world);
-        let (folder, Extras { svg, usd, state }) = match sink {
+        let (mut folder, files, Extras { svg, usd, state }) = match sink {
             Sink::Memory(rows) => return Ok(Kept { rows, view }),
-            Sink::Folder { folder, extras, .. } => (folder, extras),
+            Sink::Folder { folder, files, extras, .. } => (folder, files, extras),
         };
-        let write = |name: &str, text: String| {
-            let (path, time) = (folder.file(name), world.time());
-            fs::write(&path, text).map_err(|source| {
-                // a part of a file would be misleading
-                let _ = fs::remove_file(&path);
-                Error::Write { path, time, source }
-            })
+        for (file, probe) in files.iter().zip(&world.scene.probes) {
+            folder.note(&probe_file(&probe.name), file);
+        }
+        let mut write = |name: &str, text: String| {
+            let path = folder.file(name);
+            folder.write(name, &text).map_err(|source| Error::Write { path, time: world.time(), source })
         };
         let written = write(SUMMARY, summary.to_json() + "\n");
         let page = write(PAGE, view.page(world, summary));
         let picture = if svg { write(SVG, view.svg(world)) } else { Ok(()) };
         let motion = if usd { write(USD, view.usd(world)) } else { Ok(()) };
         let kept = if state && summary.failed.is_none() { write(STATE, State::of(world)?.to_text()) } else { Ok(()) };
+        // without its checksums the next run sets the files aside, and nothing is lost
+        let _ = folder.close();
         page.and(picture).and(motion).and(written).and(kept).map(|()| Kept { rows: Vec::new(), view })
     }
 }
@@ -172,27 +155,16 @@ impl Sink {
                     let _ = write!(text, "{}{x:?}", if i > 0 { "," } else { "" });
                 }
                 text.push('\n');
-                files[index].append(text, row.first().copied().unwrap_or(f64::NAN))?;
+                let (file, time) = (&mut files[index], row.first().copied().unwrap_or(f64::NAN));
+                let written = file.append(text.as_bytes());
+                written.map_err(|source| Error::Write { path: file.path().to_path_buf(), time, source })?;
             }
         }
         Ok(())
     }
 }
 
-impl ProbeFile {
-    /// Appends a row; nothing stays of one that does not fit on the disk.
-    fn append(&mut self, row: &str, time: f64) -> Result<(), Error> {
-        let written = self.file.write_all(row.as_bytes());
-        if written.is_err() {
-            let _ = self.file.set_len(self.length);
-        }
-        self.length += row.len() as u64;
-        written.map_err(|source| Error::Write { path: self.path.clone(), time, source })
-    }
-}
-
-/// Returns whether a name is one that runs give to their files: nothing outside the folder, whatever a list says.
-fn is_result(name: &str) -> bool {
-    let probe = name.strip_prefix("probes/").is_some_and(|file| file.ends_with(".csv") && !file.contains(['/', '\\']));
-    probe || [SUMMARY, PAGE, SVG, USD, STATE].contains(&name)
+/// Returns the name of the file of a probe.
+fn probe_file(name: &str) -> String {
+    format!("{PROBES}/{name}.csv")
 }

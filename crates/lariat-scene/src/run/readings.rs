@@ -94,7 +94,8 @@ impl World {
             terms.gravity += energy.gravity;
             let dissipated = dissipated(cable);
             terms.dissipated += dissipated;
-            let work = effects.total() + law.loads + law.supports + cable.inserted_energy();
+            let work = effects.total() + law.loads - law.bodies + law.supports + cable.inserted_energy();
+            terms.reactions += law.bodies;
             // impacts do no work: they take energy
             terms.work += work + dissipated - law.impacts;
             terms.uncertain += law.uncertain;
@@ -111,9 +112,9 @@ impl World {
         terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
         let stiffness = self.scene.cables.iter().map(|cable| cable.section.axial_stiffness * cable.length);
         terms.stiffness = stiffness.sum();
-        // the law counts all forces on bodies as loads
+        // the law has the work of gravity and loads on bodies, too
         let in_law = terms.bodies.iter().filter(|body| body.in_law);
-        terms.work += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
+        terms.reactions += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
         // the work of winches is checked too, where that of contacts does not keep it from being known
         terms.by_law = (self.has_energy_law() && (terms.unknown || !winds)).then_some(by_law);
         Ok(terms)
@@ -187,7 +188,7 @@ impl World {
 
 /// Returns the energy in J that damping, drag, friction and impacts have taken from a cable.
 fn dissipated(cable: &Cable) -> f64 {
-    cable.effect_work().dissipated() + cable.energy_law().contacts + cable.energy_law().impacts
+    cable.effect_work().dissipated() + cable.energy_law().dissipated()
 }
 
 /// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.

@@ -30,6 +30,9 @@ impl World {
         warnings.extend(scene.warnings(purpose));
         let mut held_by = vec![Default::default(); scene.attachments.len()];
         let mut reports = Vec::new();
+        // each cable finds its shape by itself first, wherever the others are
+        let moves = settles || scene.cables.iter().any(|cable| cable.equilibrium);
+        let drawn = if moves && physics.is_some() { alone.clone() } else { Vec::new() };
         for (i, cable) in alone.iter_mut().enumerate() {
             scene.add_loads(cable, i, false, fully)?;
             if fully {
@@ -40,7 +43,10 @@ impl World {
             }
             // what runs over a sheave, or is on a drum, has no equilibrium by itself: it begins as drawn
             let over_sheave = scene.sheaves.iter().any(|sheave| sheave.cables.contains(&i));
-            let runs_on = settles && (over_sheave || scene.cables[i].drum.is_some());
+            let own = &scene.cables[i];
+            // so does what a reel may not hold there, and holds together with bodies
+            let slips = physics.is_some() && own.reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
+            let runs_on = settles && (over_sheave || own.drum.is_some() || slips);
             if (settles || scene.cables[i].equilibrium) && !runs_on {
                 let report = match physics {
                     // statics of bodies begin without what the cable can touch
@@ -72,7 +78,9 @@ impl World {
         if let Some(physics) = physics {
             physics.take(scene, std::mem::take(alone), &held_by)?;
             if settles {
-                reports = self.settle(fully)?;
+                reports = self.settle(fully, drawn)?;
+            } else if moves {
+                physics.check_drawn(scene, drawn)?;
             }
         }
         if fully {
@@ -113,9 +121,9 @@ impl World {
     }
 
     /// Moves cables and bodies to equilibrium, and returns the reports of the cables.
-    fn settle(&mut self, fully: bool) -> Result<Vec<EquilibriumReport>, Error> {
+    fn settle(&mut self, fully: bool, drawn: Vec<Cable>) -> Result<Vec<EquilibriumReport>, Error> {
         let Some(physics) = &mut self.physics else { return Ok(Vec::new()) };
-        let settled = physics.settle(&self.scene, fully)?;
+        let settled = physics.settle(&self.scene, fully, drawn)?;
         self.static_iterations += settled.cables.iter().map(|report| report.iterations as u64).sum::<u64>();
         let unstable =
             self.cables().into_iter().zip(&settled.cables).filter(|(_, r)| !r.stable).map(|(c, _)| unstable(c));

@@ -14,6 +14,7 @@ use crate::physics::Physics;
 use crate::scene::Scene;
 use crate::text::read_text;
 use lariat_ancf::Cable;
+use lariat_ancf::seal::Checksum;
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use std::path::Path;
@@ -157,8 +158,7 @@ fn parts(scene: &Scene) -> Vec<(String, String)> {
     out
 }
 
-/// Returns a checksum, FNV-1a.
+/// Returns a checksum.
 fn checksum(text: &str) -> String {
-    let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, hash))
+    Checksum::of(text.as_bytes()).digits()
 }

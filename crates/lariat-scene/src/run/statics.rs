@@ -33,7 +33,11 @@ pub struct CableStatics {
     /// Largest distance of a point below the straight line between the supports on both sides of it, along gravity, in m. `None`
     /// without gravity, or if no two supports lie at different horizontal positions.
     pub sag_m: Option<f64>,
-    /// Forces and moments on what holds the cable, by arc length.
+    /// Largest difference of tensions along the cable in N that friction of what it rests on could hold: the shape is found without,
+    /// so tensions may be off by as much. 0 without contact.
+    #[serde(default)]
+    pub friction_n: f64,
+    /// Forces and moments on what holds the cable, by arc length; one for each point that is held.
     pub reactions: Vec<StaticReaction>,
 }
 
@@ -41,7 +45,7 @@ pub struct CableStatics {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StaticReaction {
-    /// Name of the attachment or junction.
+    /// Name of the attachment or junction; at a knot those of all its junctions, between commas.
     pub name: String,
     /// Arc length in m.
     pub at_m: f64,
@@ -112,6 +116,14 @@ impl CableStatics {
             );
         }
         held.sort_by(|a, b| a.1.total_cmp(&b.1));
+        // the cable pulls once at a knot, however many junctions tie it
+        held.dedup_by(|next, first| {
+            let is_same = cable.node(next.1).ok().is_some_and(|node| cable.node(first.1).ok() == Some(node));
+            if is_same {
+                first.0 = format!("{}, {}", first.0, next.0);
+            }
+            is_same
+        });
         let (peak_tension_at_m, peak_tension_n) = cable.peak_tension();
         let supports: Vec<f64> = held.iter().map(|(_, arc_length)| *arc_length).collect();
         let sag_m = sag(cable, &supports, &scene.gravity)?;
@@ -129,6 +141,7 @@ impl CableStatics {
             peak_tension_at_m,
             tension_jump_n: cable.tension_jump(),
             sag_m,
+            friction_n: cable.friction_bound(),
             reactions,
         })
     }

@@ -10,7 +10,8 @@ use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, POSITIVE, VECTOR, choice, parse_as, table};
 use lariat_ancf::{
-    At, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3, Water,
+    At, AxialLaw, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3,
+    Water,
 };
 use serde::Deserialize;
 
@@ -82,7 +83,8 @@ table! {
 
 table! {
     /// A solid section of one material, or a rope or chain by its nominal diameter, with mass, EA and no EI as catalogues have them
-    /// (`RopeMaterial` of lariat-ancf names the sources).
+    /// (`RopeMaterial` of lariat-ancf names the sources). The `axial_law` of a rope or chain by name is Hooke's, unless it has another one,
+    /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation.
     keys SECTION("[cable.section]") {
         /// Side of a square.
         square = (), Kind::Number(POSITIVE), "m";
@@ -240,7 +242,11 @@ pub(super) fn read(
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
         None => (None, false, None),
     };
-    let effects = effects::read(doc, at, row.effects, &effects::Context { section: &section, rule, length, water })?;
+    let context = effects::Context { section: &section, rule, length, water };
+    let mut effects = effects::read(doc, at, row.effects, &context)?;
+    if is_rope(row.section) && effects.axial_law.is_none() {
+        effects.axial_law = AxialLaw::of_elongation(&effects, rule);
+    }
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
     let needs = [
         ("contact", effects.contact.is_some()),
@@ -297,7 +303,11 @@ fn length(
     let mut rest = row.effects.clone();
     breaking::read(doc, at, &mut rest, (drawn, row.elements.count()))?;
     reel::read(doc, at, &mut rest)?;
-    let effects = effects::read(doc, at, rest, &effects::Context { section: &section, rule, length: drawn, water })?;
+    let context = effects::Context { section: &section, rule, length: drawn, water };
+    let mut effects = effects::read(doc, at, rest, &context)?;
+    if is_rope(row.section) && effects.axial_law.is_none() {
+        effects.axial_law = AxialLaw::of_elongation(&effects, rule);
+    }
     let builder =
         Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize).section(section);
     let builder =
@@ -305,6 +315,11 @@ fn length(
     let builder = builder.name(row.name.as_str());
     let builder = if key == "sag" { builder.sag(value) } else { builder.pretension(value) };
     builder.build().map(|cable| cable.length()).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
+}
+
+/// Returns whether a section is that of a rope or chain by name, whose EA is force over elongation.
+fn is_rope(section: Option<SectionForm>) -> bool {
+    section.is_some_and(|section| matches!(section.form(), Form::Rope(..)))
 }
 
 fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section, Error> {

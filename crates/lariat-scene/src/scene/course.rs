@@ -2,16 +2,8 @@
 //!
 //! # Equation
 //!
-//! Between rows i and i + 1, at distance h in time: linear, or the cubic with the values and rates at
-//! the two rows. The rate at a row is that of the parabola through it and its neighbours, in terms of
-//! the mean rates d of the intervals beside it:
-//!
-//! ```text
-//! inner row   r_i = (h_i d_{i-1} + h_{i-1} d_i)/(h_{i-1} + h_i)
-//! first row   r_0 = ((2 h_0 + h_1) d_0 - h_0 d_1)/(h_0 + h_1), and the last one likewise
-//! ```
-//!
-//! but 0 at a row beside an equal one: between equal rows the body stays.
+//! Between rows linear, or by [`smooth`] cubics, whose rates are continuous: between equal rows the
+//! body stays.
 //!
 //! Rotations are interpolated so by the rotation vector phi from row i on, q = q_i exp(phi), where d is
 //! log(q_i^-1 q_{i+1})/h and angular velocities in axes of the body are rates of phi by the right
@@ -19,16 +11,14 @@
 //!
 //! # Validity
 //!
-//! The cubics have a continuous velocity between the first row and the last one, and an error of the
-//! third order in the distance of the rows. Outside the body rests, so that a path that begins or ends
+//! That of [`smooth`]. Outside the rows the body rests, so that a path that begins or ends
 //! in motion has a jump of the velocity there. A rotation from row to row is below half a turn.
 //!
 //! # References
 //!
-//! de Boor 2001, chapter IV (cubic Hermite interpolation, Bessel's end rule); Sola et al. 2018, "A micro
-//! Lie theory", equations 143 and 144 (right Jacobian of SO(3)).
+//! Sola et al. 2018, "A micro Lie theory", equations 143 and 144 (right Jacobian of SO(3)).
 
-use lariat_ancf::{Motion, Vector3};
+use lariat_ancf::{Motion, Vector3, smooth};
 use nalgebra::{Matrix3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
@@ -149,28 +139,7 @@ fn interval<T>(rows: &[(f64, T)], time: f64) -> Option<Interval> {
 
 /// Returns the rate at a row, by the mean rates of the intervals.
 fn rate<T>(rows: &[(f64, T)], row: usize, mean: impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
-    let length = |i: usize| rows[i + 1].0 - rows[i].0;
-    let last = rows.len() - 1;
-    if last == 1 {
-        return mean(0);
-    }
-    let beside = row.saturating_sub(1)..(row + 1).min(last);
-    if beside.into_iter().any(|interval| mean(interval) == Vector3::zeros()) {
-        return Vector3::zeros();
-    }
-    // the interval whose rate counts more at an end, and the next
-    let beyond = |near: usize, far: usize| {
-        let (h, g) = (length(near), length(far));
-        ((2.0 * h + g) * mean(near) - h * mean(far)) / (h + g)
-    };
-    if row == 0 {
-        beyond(0, 1)
-    } else if row == last {
-        beyond(last - 1, last - 2)
-    } else {
-        let (before, behind) = (length(row - 1), length(row));
-        (behind * mean(row - 1) + before * mean(row)) / (before + behind)
-    }
+    smooth::rate(rows.len(), row, |i| rows[i + 1].0 - rows[i].0, mean)
 }
 
 /// Returns the cubic from 0 to `way` in a time h with the rates at its ends, and its rate, at a time.

@@ -328,23 +328,46 @@ table! {
         start: Option<Value> = ("\"held\""), END_SPIN;
         /// The same of a clamp at the end.
         end: Option<Value> = ("\"held\""), END_SPIN;
+        /// The same of all clamps between; one that is not held lets the torque through.
+        inner: Option<Value> = ("\"held\""), END_SPIN;
     }
     choose Choose::AtLeastOne(&["stiffness", "poisson"]);
 }
 
-/// How an end holds its spin.
+/// How a clamp holds the spin.
 const END_SPIN: Kind = Kind::Either(&[Kind::Choice(|| vec!["held", "swivel"]), Kind::Table(&MotorTable::TABLE)]);
 
 table! {
-    /// A motor that turns the spin of a clamped end at a constant rate.
-    struct MotorTable("[cable.torsion.start] and [cable.torsion.end]") {
+    /// A motor that turns the spin at a clamp, at a constant rate or by a course.
+    struct MotorTable("[cable.torsion.start], [cable.torsion.end] and [cable.torsion.inner]") {
         /// Turns per second, right-handed about the axis in the direction of arc length.
-        rate: f64 = required, Kind::Number(ANY), "1/s";
-        /// Time at which it starts.
-        from: f64 = 0.0, Kind::Number(ANY), "s";
-        /// Time at which it stops and holds.
+        rate: Option<f64> = ("by `rows`"), Kind::Number(ANY), "1/s";
+        /// Time at which it starts, with `rate`.
+        from: Option<f64> = ("0"), Kind::Number(ANY), "s";
+        /// Time at which it stops and holds, with `rate`.
         until: Option<f64> = ("never"), Kind::Number(ANY), "s";
+        /// Instead of `rate` its turns at times. Between rows the rate is continuous (cubics), and zero between equal ones; before the first and behind the last it holds: begin and end with two equal rows to start and stop without a jump of the rate.
+        rows: Option<Vec<[f64; 2]>> = ("by `rate`"), Kind::Ascending(&["t", "turns"]), "s, turns";
     }
+    choose Choose::AtLeastOne(&["rate", "rows"]);
+}
+
+/// Reads a motor.
+fn motor(doc: &Document<'_>, at: &KeyPath, written: Value) -> Result<EndSpin, Error> {
+    let MotorTable { rate, from, until, rows } = doc.typed(at, written)?;
+    let Some(rows) = rows else {
+        let (from, until) = (from.unwrap_or(0.0), until.unwrap_or(f64::MAX));
+        if until < from {
+            return Err(doc.conflict(at, "the motor stops before it starts"));
+        }
+        return Ok(EndSpin::Motor { rate: rate.unwrap_or_default(), from, until });
+    };
+    for (key, given) in [("rate", rate.is_some()), ("from", from.is_some()), ("until", until.is_some())] {
+        if given {
+            return Err(doc.conflict(&at.key(key), format!("both rows and {key} are given")));
+        }
+    }
+    Ok(EndSpin::Course(rows))
 }
 
 impl SceneEffect for Torsion {
@@ -363,17 +386,15 @@ impl SceneEffect for Torsion {
         };
         (torsion.initial_twist, torsion.damping) = (table.initial_twist, table.damping);
         torsion.torque_per_tension = table.torque_per_tension;
-        for (key, written, spin) in [("start", table.start, &mut torsion.start), ("end", table.end, &mut torsion.end)] {
+        let spins = [
+            ("start", table.start, &mut torsion.start),
+            ("end", table.end, &mut torsion.end),
+            ("inner", table.inner, &mut torsion.inner),
+        ];
+        for (key, written, spin) in spins {
             *spin = match written {
                 Some(Value::String(text)) if text == "swivel" => EndSpin::Swivel,
-                Some(motor @ Value::Table(_)) => {
-                    let MotorTable { rate, from, until } = doc.typed(&at.key(key), motor)?;
-                    let until = until.unwrap_or(f64::MAX);
-                    if until < from {
-                        return Err(doc.conflict(&at.key(key), "the motor stops before it starts"));
-                    }
-                    EndSpin::Motor { rate, from, until }
-                }
+                Some(written @ Value::Table(_)) => motor(doc, &at.key(key), written)?,
                 _ => EndSpin::Held,
             };
         }
@@ -452,6 +473,8 @@ impl SceneEffect for Contact {
 choice! {
     /// Axial laws by name.
     enum LawName {
+        /// EA times the Green strain, as without a law: where that is meant.
+        Green = "green",
         /// EA times the engineering strain.
         Hooke = "hooke",
         /// The same, without force in compression.
@@ -470,7 +493,7 @@ table! {
 
 impl SceneEffect for AxialLaw {
     const KIND: Kind = Kind::Either(&[Kind::Choice(LawName::names), Kind::Table(&CURVE)]);
-    const WITHOUT: &'static str = "the Green law of the paper";
+    const WITHOUT: &'static str = "the Green law of the paper; Hooke's of a rope or chain by name";
 
     fn check(&self, _: &Document<'_>, _: &KeyPath, _: &Context<'_>) -> Result<(), Error> {
         Ok(())

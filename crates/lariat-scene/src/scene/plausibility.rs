@@ -5,8 +5,8 @@
 //! A corner of the drawn shape is strained, because the elements beside it are smooth: a node on it turns by half the angle t on each side, and an
 //! element of length h stores about EA h (t/6)^4, one with the corner inside three to four times as much. Limits: a strain of 3e-3 on the mean of all of
 //! the cable, a third of that at which steel ropes break, and a tenth of the energies that the cable starts with otherwise. A radius of contact of
-//! ten diameters is more than any sheath; axial damping times of ropes are below 0.1 s, and a time in percent of critical is above one. A slack of 50 m that is meant in percent makes a cable
-//! of many times its span; no hook is three radii of its body away from it.
+//! ten diameters is more than any sheath; no hook is three radii of its body away from it. What the mechanics know by themselves is in
+//! `lariat_ancf::warning::sizes`.
 
 use super::body::{BodyKind, BodyMass, BodyScene, BodyShape};
 use super::load::LoadScene;
@@ -24,12 +24,6 @@ const CORNER_ENERGY: f64 = 0.1;
 const CONTACT: [f64; 2] = [0.2, 1.5];
 /// Largest radius of contact over the diameter of the section.
 const SHEATH: f64 = 10.0;
-/// Largest axial damping time in s.
-const SLOWEST_STRETCH: f64 = 1.0;
-/// Length over thickness of a cable below which it is warned of by itself.
-const STUBBY: f64 = 10.0;
-/// Largest length of a cable over that of its points.
-const SLACK: f64 = 3.0;
 /// Largest distance of an anchor from the origin of a dynamic body over the radius of its shape.
 const ANCHOR: f64 = 3.0;
 /// Largest size of a body over the length of a wave that it does not disturb (Faltinsen 1990, ch. 3).
@@ -45,13 +39,11 @@ impl Scene {
     /// Returns warnings about what is probably not meant, as the scene is written.
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
         let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
-        warnings.extend(self.cables.iter().flat_map(contact_and_damping));
-        warnings.extend(self.cables.iter().flat_map(slack_and_elements));
+        warnings.extend(self.cables.iter().filter_map(thick_contact));
         warnings.extend(self.far_anchors());
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
         warnings.extend(self.large_in_waves());
-        warnings.extend(self.moments_along());
         if purpose != Purpose::Static {
             warnings.extend(self.falling());
             warnings.extend(self.unfinished_ramps());
@@ -110,17 +102,6 @@ impl Scene {
             }
         }
         warnings
-    }
-
-    /// Returns a warning for each moment about the tangent of a cable that is drawn straight.
-    fn moments_along(&self) -> impl Iterator<Item = Warning> {
-        self.loads.iter().filter_map(|LoadScene { cable, load, .. }| {
-            let cable = &self.cables[*cable];
-            let [a, b] = cable.points[..] else { return None };
-            let part_nm = load.moment.dot(&(b - a).normalize()).abs();
-            let most = part_nm > 0.1 * load.moment.norm();
-            most.then(|| Warning::MomentAlong { cable: cable.name.clone(), at_m: load.arc_length, part_nm })
-        })
     }
 
     /// Returns a warning for each anchor far outside of the shape of a dynamic body.
@@ -290,34 +271,21 @@ fn radius(body: &BodyScene) -> f64 {
     }
 }
 
+/// Returns what the mechanics say about the sizes of a cable.
 fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
-    sizes::warnings(&cable.name, &cable.section, cable.length)
+    let (name, section, length) = (&cable.name, &cable.section, cable.length);
+    let drawn = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
+    let damping = cable.effects.damping.as_ref().and_then(|damping| sizes::damping(name, damping));
+    let element = cable.grading.as_ref().map_or(length / cable.elements as f64, |grading| grading.finest);
+    let shape = sizes::slack(name, length, drawn).into_iter().chain(sizes::elements(name, section, length, element));
+    sizes::warnings(name, section, length).chain(damping).chain(shape)
 }
 
-/// Returns the warnings about a radius of contact in another unit, and about damping in another measure.
-fn contact_and_damping(cable: &CableScene) -> impl Iterator<Item = Warning> {
-    let name = || cable.name.clone();
+/// Returns the warning about a radius of contact in another unit.
+fn thick_contact(cable: &CableScene) -> Option<Warning> {
     let (length_m, diameter_m) = (cable.length, cable.section.diameter);
-    let radius = cable.effects.contact.as_ref().and_then(|contact| contact.radius);
-    let thick = radius.filter(|radius| {
-        2.0 * radius > CONTACT[1].min(CONTACT[0] * length_m) || diameter_m.is_some_and(|d| *radius > SHEATH * d)
-    });
-    let thick = thick.map(|radius_m| Warning::ThickContact { cable: name(), radius_m, length_m, diameter_m });
-    let axial = cable.effects.damping.map(|damping| damping.axial).filter(|axial| *axial > SLOWEST_STRETCH);
-    thick.into_iter().chain(axial.map(|axial_s| Warning::SlowStretch { cable: name(), axial_s }))
-}
-
-/// Returns the warnings about a length in another measure, and about elements that are thicker than long.
-fn slack_and_elements(cable: &CableScene) -> impl Iterator<Item = Warning> {
-    let (name, length_m) = (|| cable.name.clone(), cable.length);
-    let drawn_m = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
-    let slack = length_m > SLACK * drawn_m;
-    let slack = slack.then(|| Warning::MuchSlack { cable: name(), length_m, drawn_m });
-    let mean = length_m / cable.elements as f64;
-    let element_m = cable.grading.as_ref().map_or(mean, |grading| grading.finest);
-    // a cable that is short itself is told as such
-    let thick = |diameter: &f64| *diameter > element_m && length_m > STUBBY * diameter;
-    let thick = cable.section.diameter.filter(thick);
-    let thick = thick.map(|diameter_m| Warning::ThickElements { cable: name(), element_m, diameter_m });
-    slack.into_iter().chain(thick)
+    let radius_m = cable.effects.contact.as_ref()?.radius?;
+    let thick = 2.0 * radius_m > CONTACT[1].min(CONTACT[0] * length_m)
+        || diameter_m.is_some_and(|diameter| radius_m > SHEATH * diameter);
+    thick.then(|| Warning::ThickContact { cable: cable.name.clone(), radius_m, length_m, diameter_m })
 }

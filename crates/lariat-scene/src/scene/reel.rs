@@ -54,12 +54,16 @@ table! {
         end: ReelEnd = "end", Kind::Choice(ReelEnd::names);
         /// Rate from a time on: positive pays out.
         rate: Option<Vec<[f64; 2]>> = (), Kind::Ascending(&["t", "rate"]), "s, m/s";
-        /// The body on which the cable is wound, instead of `rate`, `acceleration`, `max_force` and `feed`. Needs the integrator
+        /// The body on which the cable is wound, instead of `rate`, `to_length`, `acceleration`, `max_force` and `feed`. Needs the integrator
         /// `discrete-gradient`.
         drum: Option<DrumTable> = (), Kind::Table(&DrumTable::TABLE);
-        /// Largest acceleration of the rate.
+        /// Length of cable that is out when the reel stops: it comes there with the rates of `rate`, whatever their sign, and within
+        /// `acceleration`. Not with a drum.
+        to_length: Option<f64> = ("none, the rates are followed"), Kind::Number(POSITIVE), "m";
+        /// Largest acceleration of the rate. What a table asks for in less time than that takes is told by the warning `slow_reel`.
         acceleration: f64 = 2.0, Kind::Number(POSITIVE), "m/s^2";
-        /// Largest length of cable that can be out: the reel stops there. Needed on a dynamic body.
+        /// Largest length of cable that can be out: the reel stops there, softly if its motor holds it, at once if it slips. Needed on a
+        /// dynamic body.
         stock: Option<f64> = ("no limit"), Kind::Number(POSITIVE), "m";
         /// Largest force of the motor: the reel slips where the cable pulls more. A clutch; with a rate of 0 a brake; 0 is a free
         /// spool. Needs the integrator `discrete-gradient`.
@@ -103,9 +107,10 @@ pub(super) const REEL: Key = Key {
 pub(super) fn read(doc: &Document<'_>, at: &KeyPath, rows: &mut toml::Table) -> Result<Option<Written>, Error> {
     let Some(value) = rows.remove(REEL.name) else { return Ok(None) };
     let at = at.key(REEL.name);
-    let ReelTable { end, rate, drum, acceleration, stock, max_force, inertia, feed } = doc.typed(&at, value)?;
+    let ReelTable { end, rate, drum, to_length, acceleration, stock, max_force, inertia, feed } =
+        doc.typed(&at, value)?;
     if drum.is_some() {
-        for key in ["acceleration", "max_force", "feed"].map(|key| at.key(key)) {
+        for key in ["to_length", "acceleration", "max_force", "feed"].map(|key| at.key(key)) {
             if doc.contains(&key) {
                 return Err(doc.conflict(&key, "the motion of a drum is that of its body"));
             }
@@ -117,7 +122,7 @@ pub(super) fn read(doc: &Document<'_>, at: &KeyPath, rows: &mut toml::Table) -> 
         Feeding::Coil => Feed::Coil,
         Feeding::Bag => Feed::Bag,
     };
-    let reel = Reel { rate: rate.unwrap_or_default(), acceleration, stock, max_force, inertia, feed };
+    let reel = Reel { rate: rate.unwrap_or_default(), to_length, acceleration, stock, max_force, inertia, feed };
     Ok(Some(Written { reel, at_start: end == ReelEnd::Start, drum }))
 }
 

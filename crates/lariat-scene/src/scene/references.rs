@@ -40,6 +40,9 @@ impl TryFrom<String> for Share {
     }
 }
 
+/// Length, as a share of that of the cable, by which a point may lie beyond an end: it is at the end then.
+const BEYOND: f64 = 1e-9;
+
 /// Returns the arc length (m) of a point of a cable of this length (m).
 pub(super) fn arc_length(doc: &Document<'_>, at: &KeyPath, point: Position, length: f64) -> Result<f64, Error> {
     let s = match point {
@@ -48,8 +51,8 @@ pub(super) fn arc_length(doc: &Document<'_>, at: &KeyPath, point: Position, leng
         Position::End(CableEnd::End) => length,
         Position::Share(Share(share)) => share * length,
     };
-    if (0.0..=length).contains(&s) {
-        return Ok(s);
+    if (-BEYOND * length..=(1.0 + BEYOND) * length).contains(&s) {
+        return Ok(s.clamp(0.0, length));
     }
     Err(doc.conflict(at, format!("{s} m is not on the cable, which is {length} m long")))
 }

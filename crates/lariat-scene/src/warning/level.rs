@@ -13,15 +13,11 @@ impl Warning {
             | Warning::StartsInside { .. }
             | Warning::PassesThrough { .. }
             | Warning::UnfinishedRamp { .. }
-            | Warning::MomentAlong { .. }
             | Warning::RankDeficient { .. }
             | Warning::LeftAsDrawn { .. }
             | Warning::VelocityJump { .. }
             | Warning::DrawnCorner { .. }
             | Warning::ThickContact { .. }
-            | Warning::SlowStretch { .. }
-            | Warning::MuchSlack { .. }
-            | Warning::ThickElements { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
@@ -50,16 +46,12 @@ impl Warning {
             | Warning::PassesThrough { cable, .. }
             | Warning::OpenGap { cable, .. }
             | Warning::Unsettled { cable, .. }
-            | Warning::MomentAlong { cable, .. }
             | Warning::StiffKink { cable, .. }
             | Warning::RankDeficient { cable, .. }
             | Warning::UnstableEquilibrium { cable, .. }
             | Warning::VelocityJump { cable, .. }
             | Warning::DrawnCorner { cable, .. }
             | Warning::ThickContact { cable, .. }
-            | Warning::SlowStretch { cable, .. }
-            | Warning::MuchSlack { cable, .. }
-            | Warning::ThickElements { cable, .. }
             | Warning::AddedMassInAir { cable, .. }
             | Warning::LargeLoad { cable, .. } => Some(cable),
             Warning::FallsFreely { .. }
@@ -93,7 +85,7 @@ impl Judged for Warning {
             Warning::OpenGap { .. } => Sign::Gap,
             Warning::VelocityJump { .. } => Sign::Shock,
             Warning::DrawnCorner { .. } => Sign::Corner,
-            Warning::ThickContact { .. } | Warning::ThickElements { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
+            Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::FallsFreely { .. }
@@ -102,7 +94,6 @@ impl Judged for Warning {
             | Warning::SheaveStopped { .. }
             | Warning::WheelTurned { .. }
             | Warning::UnfinishedRamp { .. }
-            | Warning::MomentAlong { .. }
             | Warning::StiffKink { .. }
             | Warning::NoConvergence { .. }
             | Warning::ForcesNotProven { .. }
@@ -110,8 +101,6 @@ impl Judged for Warning {
             | Warning::RankDeficient { .. }
             | Warning::UnstableEquilibrium { .. }
             | Warning::LeftAsDrawn { .. }
-            | Warning::SlowStretch { .. }
-            | Warning::MuchSlack { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
             | Warning::AddedMassInAir { .. }
@@ -147,16 +136,12 @@ impl Judged for Warning {
             Warning::Unsettled { force, .. } => *force,
             Warning::WheelTurned { error_m, part_m, .. } => error_m / part_m,
             Warning::UnfinishedRamp { ramp_s, .. } => *ramp_s,
-            Warning::MomentAlong { part_nm, .. } => part_nm.abs(),
             Warning::EnergyMade { made_j: energy, scale_j, .. }
             | Warning::EnergyLost { lost_j: energy, scale_j, .. } => energy / scale_j,
             Warning::UnstableEquilibrium { compression, .. } => compression.unwrap_or(0.0),
             Warning::VelocityJump { force_n, .. } => *force_n,
             Warning::DrawnCorner { speed_m_s, .. } => *speed_m_s,
             Warning::ThickContact { radius_m, .. } => *radius_m,
-            Warning::SlowStretch { axial_s, .. } => *axial_s,
-            Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,
-            Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
             Warning::FarAnchor { distance_m, radius_m, .. } => distance_m / radius_m,
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,

@@ -83,11 +83,10 @@ pub enum Warning {
         /// Whether they met.
         closed: bool,
     },
-    /// An attachment to a body on joints that did not move as predicted for a second.
+    /// An attachment to a body on joints that did not move as predicted for a second, or whose joints came apart.
     #[error(
-        "attachment {attachment:?}: the joints of its body did not hold it as predicted, in {:.0} % of the steps before {time_s:.3} s, and the forces there are \
-         {:.1} % off those that moved it; do not trust the forces of its cables: take a shorter `dt`, more iterations or a multibody, or weld links into one body",
-        100.0 * .steps, 100.0 * .force
+        "attachment {attachment:?}: the joints of its body did not hold it as predicted: {}; do not trust its position and the forces of its cables: take a \
+         shorter `dt`, more iterations or a multibody, weld links into one body, or keep heavy links away from light ones", unsettled(*.time_s, *.steps, *.force, *.gap_m)
     )]
     Unsettled {
         /// Name of the attachment.
@@ -95,13 +94,16 @@ pub enum Warning {
         /// Name of its cable.
         #[serde(default)]
         cable: String,
-        /// Time in s at the end of the worst half second.
+        /// Time in s at the end of the worst half second, or of the largest gap.
         time_s: f64,
         /// Share of the steps in which the body deviated from its prediction.
         steps: f64,
         /// Difference between the forces that were read and those that moved the body, as a share
         /// of these.
         force: f64,
+        /// Distance in m by which a joint of the body came apart; 0 where all of them hold.
+        #[serde(default)]
+        gap_m: f64,
     },
     /// A sheave that a point of its cable stopped.
     #[error(
@@ -160,19 +162,6 @@ pub enum Warning {
         ramp_s: f64,
         /// Duration of the run in s.
         duration_s: f64,
-    },
-    /// A cable without torsion gets a moment about its own direction.
-    #[error(
-        "cable {cable:?}: the moment on it at {at_m:.4} m has {part_nm:.3e} N m about its tangent, as drawn, and that part does \
-         nothing: twist an end by a motor of its torsion, or put the moment on a body"
-    )]
-    MomentAlong {
-        /// Name of the cable.
-        cable: String,
-        /// Arc length in m.
-        at_m: f64,
-        /// Part of the moment about the tangent in N m.
-        part_nm: f64,
     },
     /// Integration makes energy.
     #[error(
@@ -348,42 +337,6 @@ pub enum Warning {
         /// Outer diameter or side of the section in m, if it has one.
         diameter_m: Option<f64>,
     },
-    /// A damping time that no rope has.
-    #[error(
-        "cable {cable:?}: its axial damping is {axial_s} s: it stretches under a load only within such a time, and is stiff until then; it is the time of Kelvin \
-         and Voigt, not a share of the critical damping; for that of a rope set damping = {{ rope = \"wire-rope\" }}"
-    )]
-    SlowStretch {
-        /// Name of the cable.
-        cable: String,
-        /// Time of the axial strain in s.
-        axial_s: f64,
-    },
-    /// A cable that is several times as long as drawn.
-    #[error(
-        "cable {cable:?}: it is {length_m:.4} m long and drawn over {drawn_m:.4} m, {percent:.0} % of slack: its length is in m; was a share meant?",
-        percent = 100.0 * (.length_m / .drawn_m - 1.0)
-    )]
-    MuchSlack {
-        /// Name of the cable.
-        cable: String,
-        /// Unstretched length in m.
-        length_m: f64,
-        /// Length of its points in m.
-        drawn_m: f64,
-    },
-    /// Elements that are thicker than long.
-    #[error(
-        "cable {cable:?}: its elements are {element_m:.2e} m long and {diameter_m:.2e} m thick: what bends within the thickness shears, and a cable has no shear; take fewer elements"
-    )]
-    ThickElements {
-        /// Name of the cable.
-        cable: String,
-        /// Length of the shortest elements in m.
-        element_m: f64,
-        /// Outer diameter or side in m.
-        diameter_m: f64,
-    },
     /// An anchor far from all of the shape of its body.
     #[error(
         "attachment {attachment:?}: its anchor is {distance_m:.3e} m from the origin of body {body:?}, whose shape reaches {radius_m:.3e} m: the anchor is in the axes of the body; was a point of the \
@@ -474,6 +427,10 @@ pub enum Warning {
 fn until(horizon: Option<f64>, estimate: Option<f64>) -> String {
     let horizon = horizon.map_or(String::new(), |time| format!(" from {time:.4} s on"));
     estimate.map_or(horizon.clone(), |estimate| format!("{horizon} (estimate {estimate:.1e} m)"))
+}
+
+fn unsettled(time_s: f64, steps: f64, force: f64, gap_m: f64) -> String {
+    lariat_rapier::Unsettled::new(time_s, steps, force, gap_m).text()
 }
 
 fn would_need(elements: Option<usize>) -> String {

@@ -4,6 +4,7 @@ mod contacts;
 mod holds;
 mod joined_statics;
 mod motion;
+mod passed;
 mod results;
 mod runs;
 mod scenes;

@@ -11,7 +11,7 @@ density = 4000.0
 youngs_modulus = 1000000000.0
 "#;
 
-fn solve(text: &str) -> Result<(Summary, Vec<String>), Error> {
+pub(super) fn solve(text: &str) -> Result<(Summary, Vec<String>), Error> {
     let folder = tempfile::tempdir().unwrap();
     let scene = Scene::parse("statics.toml", text, &[], Purpose::Static)?;
     let summary = run::statics(&scene, folder.path(), &mut run::Options::default())?;

@@ -68,10 +68,8 @@ fn loads_that_a_run_does_not_see_are_told() {
     let ramp = warned(&beam("force = [1.0, 0.0, 0.0]\nramp = 5.0"), Purpose::Run);
     assert!(matches!(&ramp[..], [Warning::UnfinishedRamp { on, ramp_s: 5.0, .. }] if on == "beam"), "{ramp:?}");
     assert!(ramp[0].to_string().contains("2 %"), "{}", ramp[0]);
-    let along = warned(&beam("moment = [0.0, -2.0, 0.5]"), Purpose::Run);
-    assert!(along.iter().any(|w| matches!(w, Warning::MomentAlong { part_nm: 2.0, at_m: 2.0, .. })), "{along:?}");
-    for well in ["force = [1.0, 0.0, 0.0]\nramp = 0.1", "moment = [0.5, 0.0, 0.5]"] {
-        let told = |w: &Warning| matches!(w, Warning::UnfinishedRamp { .. } | Warning::MomentAlong { .. });
+    for well in ["force = [1.0, 0.0, 0.0]\nramp = 0.1", "moment = [0.0, -2.0, 0.5]"] {
+        let told = |w: &Warning| matches!(w, Warning::UnfinishedRamp { .. });
         let warnings = warned(&beam(well), Purpose::Run);
         assert!(!warnings.iter().any(told), "{well} {warnings:?}");
     }

@@ -157,7 +157,38 @@ impl Cable {
     pub fn set_reel_rate(&mut self, at: impl Into<At>, rate: f64) -> Result<(), Error> {
         let at = at.into();
         let own = self.reel_description(at).cloned().unwrap_or_default();
-        self.set_reel(at, Reel { rate: Reel::with_rate(rate).rate, ..own })
+        self.set_reel(at, Reel { rate: Reel::with_rate(rate).rate, to_length: None, ..own })
+    }
+
+    /// Lets the reel at an end come to a length of cable in m that is out, and stop there to
+    /// rounding, with a rate in m/s of at most the size of `rate` and within the acceleration of
+    /// the reel. Where it moves too fast to stop there, it comes back. A motor that slips comes
+    /// there once it holds again.
+    ///
+    /// ```
+    /// use lariat_ancf::{At, Cable, Reel, Section, Vector3};
+    ///
+    /// let mut cable = Cable::builder()
+    ///     .points([Vector3::zeros(), Vector3::new(0.0, -2.0, 0.0)])
+    ///     .section(Section::square(0.01, 1.0e8, 1000.0)?)
+    ///     .fix(At::Start)
+    ///     .elements(8)
+    ///     .build()?;
+    /// cable.add_reel(At::Start, Reel::default())?;
+    /// cable.set_reel_length(At::Start, 2.5, 1.0)?;
+    /// for _ in 0..120 {
+    ///     cable.step(1.0 / 60.0)?;
+    /// }
+    /// assert!((cable.length() - 2.5).abs() < 1e-9);
+    /// # Ok::<(), lariat_ancf::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`set_reel`](Self::set_reel).
+    pub fn set_reel_length(&mut self, at: impl Into<At>, length: f64, rate: f64) -> Result<(), Error> {
+        let at = at.into();
+        let own = self.reel_description(at).cloned().unwrap_or_default();
+        self.set_reel(at, Reel { rate: Reel::with_rate(rate).rate, to_length: Some(length), ..own })
     }
 
     /// Takes the reel at an end away: what is out stays, and nothing moves through the eye any

@@ -19,8 +19,8 @@ use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::reel::{Feed, Reel};
 use crate::scales::SAME;
-use crate::scales::reel::{LEAST, STOP};
-use crate::system::{Law, Motor, MotorState, rates};
+use crate::scales::reel::{LEAST, RIGID, STOP};
+use crate::system::{Law, Motor, MotorState, rates, towards};
 
 impl Cable {
     /// See [`Coupling`](crate::coupling::Coupling).
@@ -81,7 +81,8 @@ impl Cable {
 
     /// Returns the rate of a reel for a host step of length `h` (s).
     pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
-        let (rate, asked, a) = (winding.extent[1], reel.asked(self.time()), reel.acceleration);
+        let way = self.way(reel);
+        let (rate, asked, a) = (winding.extent[1], reel.asked(self.time(), way), reel.acceleration);
         let plan = Plan { begin: self.time(), end: self.time() + h, rate: 0.0, stopped: false };
         if reel.has_law() || rate == 0.0 && asked == 0.0 {
             return plan;
@@ -91,9 +92,18 @@ impl Cable {
         let enough = r * (0.5 * r / a + h) + a * h * h;
         let left = [self.left(side, enough), self.left_of_stock(reel)];
         let [lowest, highest] = rates(a, rate, left, h);
-        let wanted = asked.clamp(rate - a * h, rate + a * h);
+        let limits = [rate - a * h, rate + a * h];
+        let wanted = match way {
+            Some(way) => towards(a, (rate, asked), (way, h), limits),
+            None => asked.clamp(limits[0], limits[1]),
+        };
         let end = wanted.clamp(lowest, highest);
         Plan { rate: end, stopped: end != wanted, ..plan }
+    }
+
+    /// Returns how much in m the length that a reel is to come to is beyond the present one.
+    pub(super) fn way(&self, reel: &Reel) -> Option<f64> {
+        reel.to_length.filter(|_| !reel.needs_island()).map(|length| length - self.length())
     }
 
     /// Returns the length in m that is left of the stock.
@@ -118,13 +128,16 @@ impl Cable {
         let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force, excess: 0.0 };
         let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
         let reach = reach.unwrap_or_else(|| self.reach(side, f64::INFINITY));
+        let way = self.way(reel);
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
             duration: h,
             host,
             wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
-            asked: reel.asked(self.time()),
+            asked: reel.asked(self.time(), way),
             acceleration: if in_island { STOP } else { reel.acceleration },
+            stop: if in_island { STOP } else { RIGID },
+            target: way.map(|way| length + way),
             before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0, excess: 0.0 })),
             bounds: [-reach, length + self.left_of_stock(reel)],
         };

@@ -107,7 +107,7 @@ impl Cable {
         self.model.reels.sides().all(|side| {
             let (reel, winding) = (self.model.reels.get(side), &self.snapshot.windings[side as usize]);
             let (Some(reel), Some(winding)) = (reel, winding) else { return true };
-            winding.extent[1] == 0.0 && (reel.asked(self.time()) == 0.0 || winding.stopped)
+            winding.extent[1] == 0.0 && (reel.asked(self.time(), self.way(reel)) == 0.0 || winding.stopped)
         })
     }
 

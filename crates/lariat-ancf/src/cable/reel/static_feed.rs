@@ -2,8 +2,9 @@
 
 use crate::cable::Cable;
 use crate::element::side::Side;
-use crate::error::Error;
-use crate::scales::reel::PASSING;
+use crate::error::{EquilibriumFailure, Error};
+use crate::reel::Feed;
+use crate::scales::reel::{ALL, PASSING};
 
 impl Cable {
     /// Returns the pull in N at the eye of an end, with the cable at rest; 0 without a reel.
@@ -12,6 +13,18 @@ impl Cable {
         let q = side.gather(self.positions());
         let pull = self.system.feed_force(&self.model, feed, self.time(), [&q, &[0.0; 12], &[0.0; 12]]).pull;
         pull - self.torsion_on_length(side)
+    }
+
+    /// Returns the failure of an equilibrium in which a reel slips, with pulls that are right to
+    /// `tolerance` (N): in statics a reel holds its length by a force of at most its largest. At
+    /// the end of its stock it holds any pull.
+    pub(crate) fn slips(&self, tolerance: f64) -> Option<EquilibriumFailure> {
+        self.model.reels.sides().find_map(|side| {
+            let reel = self.model.reels.get(side).filter(|reel| reel.feed != Feed::Sheave)?;
+            let (pull, largest) = (self.pull_at_rest(side), reel.max_force?);
+            let stopped = pull > 0.0 && reel.stock.is_some_and(|stock| self.length() >= ALL * stock);
+            (pull.abs() > largest + tolerance && !stopped).then_some(EquilibriumFailure::Slips { pull, largest })
+        })
     }
 
     /// Returns the tangent at the eye of an end, towards the eye.

@@ -209,7 +209,7 @@ impl Cable {
             return rate + winding.extent[2].abs() * dt;
         }
         let rows = reel.rate.iter().filter(|row| row[0] > self.time() && row[0] < self.time() + dt);
-        let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time()).abs(), f64::max);
+        let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time(), None).abs(), f64::max);
         rate.max(asked.min(rate + reel.acceleration * dt))
     }
 }

@@ -28,7 +28,13 @@ use nalgebra::Vector3;
 pub(in crate::contact) type Moved = [Vector3<f64>; 2];
 
 /// Returns the share of the step at which two chords first go through each other, if they do.
-pub(in crate::contact) fn crossing([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<f64> {
+pub(in crate::contact) fn crossing(a: [&Moved; 2], b: [&Moved; 2]) -> Option<f64> {
+    crossing_with_sense(a, b).map(|(share, _)| share)
+}
+
+/// Returns that share, and the sense of the crossing: 1 or -1, the opposite of that of the way
+/// back.
+pub(super) fn crossing_with_sense([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<(f64, i32)> {
     let [u, v, w] = [[a1, a0], [b1, b0], [b0, a0]].map(|[p, q]| [p[0] - q[0], p[1] - q[1]]);
     let triple = |i: usize, j: usize, k: usize| u[i].cross(&v[j]).dot(&w[k]);
     let cubic = [
@@ -46,7 +52,7 @@ pub(in crate::contact) fn crossing([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2])
         if let Some(t) = root(f, low, high)
             && meets([a0, a1].map(|x| x[0] + x[1] * t), [b0, b1].map(|x| x[0] + x[1] * t))
         {
-            return Some(t);
+            return Some((t, if f(high) > 0.0 { 1 } else { -1 }));
         }
         low = high;
     }

@@ -68,6 +68,7 @@ mod search;
 mod step;
 mod strands;
 mod touch;
+mod way;
 
 /// Cables of an island that may touch each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,3 +87,4 @@ pub(in crate::contact) use crossing::crossing;
 pub(crate) use step::PairStep;
 pub(crate) use strands::Strands;
 pub use touch::PairTouch;
+pub use way::{Way, crossed_on};

@@ -37,22 +37,24 @@
 //!
 //! - Hooke as the default: engineering strain differs from Green's law by 3/2 of the strain (0.15 %
 //!   of the tension at 0.1 %), costs more per element, and changes every result that is compared
-//!   with the paper. It is asked for by name.
+//!   with the paper. It is asked for by name, and that of ropes whose section is [named by
+//!   material](crate::CableBuilder::rope): their EA is force over elongation.
 //! - The law at the points of the rule: with raw strain a bent element locks.
 
 mod spline;
 mod taut;
 
 use super::acts::{Acts, ElementForce, Nothing, SampledPoint};
+use super::torsion::stranded::Strands;
 use super::work::POINTS;
-use super::{Cut, Effect, Target};
+use super::{Cut, Effect, Effects, RestShape, Target};
 use crate::Real;
 use crate::element::axial::moment;
 use crate::element::gram::{PAIR_WEIGHT, Six, form, upper};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::error::{Error, Requirement, require};
-use crate::rule::AxialRule;
-use crate::scales::effect::CRUMPLED;
+use crate::rule::{AxialRule, Rule};
+use crate::scales::effect::{CRUMPLED, LEAST_POINTS};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use spline::{Secant, Spline, stretch};
@@ -62,6 +64,9 @@ pub(crate) use taut::Taut;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxialLaw {
+    /// The Green law, which a cable has without this effect: for where it is meant, and its
+    /// difference to Hooke's is not to be warned of.
+    Green,
     /// EA times the strain, in tension and in compression.
     Hooke,
     /// EA times the strain in tension, nothing in compression: a rope that cannot push, with axial
@@ -73,12 +78,27 @@ pub enum AxialLaw {
 }
 
 impl AxialLaw {
-    /// Returns the law per EA (N).
-    fn spline(&self, stiffness: f64) -> Spline {
+    /// Returns the law of a rope whose EA is force over elongation: Hooke's; `None` beside effects
+    /// and rules that no law goes with.
+    pub fn of_elongation(effects: &Effects, rule: Rule) -> Option<Self> {
+        let stretched = effects.rest_shape.as_ref().is_some_and(RestShape::is_stretched);
+        let stranded = effects.torsion.as_ref().and_then(Strands::of).is_some();
+        let coarse = matches!(rule.axial, AxialRule::Gauss(points) if points < LEAST_POINTS);
+        (!stretched && !stranded && !coarse).then_some(AxialLaw::Hooke)
+    }
+
+    /// Returns whether it is another one than that of the elements.
+    pub(crate) fn is_other(&self) -> bool {
+        *self != AxialLaw::Green
+    }
+
+    /// Returns the law per EA (N), if it is another one than that of the elements.
+    fn spline(&self, stiffness: f64) -> Option<Spline> {
         match self {
-            AxialLaw::Hooke => Spline::hooke(),
-            AxialLaw::Rope => Spline::rope(),
-            AxialLaw::Curve(rows) => Spline::curve(rows, stiffness),
+            AxialLaw::Green => None,
+            AxialLaw::Hooke => Some(Spline::hooke()),
+            AxialLaw::Rope => Some(Spline::rope()),
+            AxialLaw::Curve(rows) => Some(Spline::curve(rows, stiffness)),
         }
     }
 }
@@ -88,7 +108,8 @@ impl Effect for AxialLaw {
 
     fn check(&self, cable: &Target<'_>) -> Result<(), Error> {
         if let AxialRule::Gauss(points) = cable.rule.axial
-            && points < 5
+            && points < LEAST_POINTS
+            && self.is_other()
         {
             return Err(cable.missing("an axial law", Requirement::WholeAxialRule));
         }
@@ -152,7 +173,7 @@ impl Acts for AxialLaw {
             AxialRule::Mean => vec![mean],
             _ => vec![beside(-1.0), beside(1.0)],
         };
-        let spline = self.spline(stiffness);
+        let spline = self.spline(stiffness)?;
         let pushing = spline.slack().map(|_| Box::new(spline.pushing()));
         Some(LawTable { spline, points, pushing, pushes: false })
     }

@@ -38,7 +38,7 @@ impl Curve {
 
     /// Returns a director of the first node carried to the last one, the tangent there, and the sum
     /// of det/6.
-    fn carry(&self, director: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>, f64) {
+    pub(super) fn carry(&self, director: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>, f64) {
         let (mut carried, mut at, mut sum) = (director, Vector3::zeros(), 0.0);
         for [x, m, y] in slopes_along(&self.q, self.lengths.iter().copied()) {
             sum += x.dot(&m.cross(&y)) / 6.0;
@@ -46,6 +46,16 @@ impl Curve {
             at = y;
         }
         (carried, at, sum)
+    }
+
+    /// Returns the directions of the slopes at both ends.
+    pub(super) fn ends(&self) -> [Vector3<f64>; 2] {
+        let (size, last) = (self.q.len(), self.lengths.len().saturating_sub(1));
+        let of = |e: usize, k: usize| directions(&self.q[6 * e..6 * e + 12], self.lengths[e])[k];
+        if size < 12 {
+            return [Vector3::x(); 2];
+        }
+        [of(0, 0), of(last, 2)].map(|d| d.try_normalize(0.0).unwrap_or(d))
     }
 
     /// Returns the twist in rad that another mesh in its place adds.

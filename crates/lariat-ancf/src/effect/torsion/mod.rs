@@ -23,7 +23,9 @@
 //! | `direction` | directions of slopes, regularised |
 //! | `pair` | twist between two directions |
 //! | `element` | twist of an element: gradient, Hessian, exact change |
+//! | `path` | twist that a change adds which no step makes |
 //! | `lengths` | lengths of elements over a step |
+//! | `check` | whether a twist was followed in statics |
 //! | `curve` | what a change of the mesh does to the twist |
 //! | `stranded` | torque by tension of a stranded rope |
 //! | `segment` | segments of a cable, their torques, and what the state holds of them |
@@ -51,11 +53,13 @@
 //! per node: constraints, or a mass matrix that is not constant. Twist of the nodal tangents
 //! (discrete elastic rods): order 2.
 
+pub(crate) mod check;
 pub(crate) mod curve;
 mod direction;
 mod element;
 pub(crate) mod lengths;
 mod pair;
+mod path;
 pub(crate) mod rank;
 pub(crate) mod segment;
 pub(crate) mod spin;
@@ -66,12 +70,14 @@ mod tests;
 use super::acts::{Acts, Nothing};
 use super::{Cut, Effect, Target};
 use crate::error::{Error, Requirement, require};
+use crate::rows::{check_rows, is_constant};
+use crate::smooth;
 use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
-/// How a clamped end of a cable with [torsion](Torsion) holds its spin about the axis. At an end
-/// that is not clamped nothing holds it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// How a clamp of a cable with [torsion](Torsion) holds its spin about the axis. At an end that is
+/// not clamped nothing holds it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum EndSpin {
     /// It turns with what it is clamped to.
@@ -88,43 +94,62 @@ pub enum EndSpin {
         /// Time in s at which it stops, and holds.
         until: f64,
     },
+    /// A motor turns it, beside what it is clamped to, by a course: rows of time in s, ascending,
+    /// and turns, right-handed about the axis in the direction of arc length. Between them the
+    /// turns and their rate are [continuous](crate::smooth); before the first row and behind the
+    /// last it holds. What counts is by how much it turns from when the cable is built.
+    Course(Vec<[f64; 2]>),
 }
 
 impl EndSpin {
     /// Returns the angle in rad of the motor at a time in s.
     pub(crate) fn angle(&self, time: f64) -> f64 {
-        match *self {
-            EndSpin::Motor { rate, from, until } => TAU * rate * (time.clamp(from, until) - from),
+        match self {
+            &EndSpin::Motor { rate, from, until } => TAU * rate * (time.clamp(from, until) - from),
+            EndSpin::Course(rows) => TAU * smooth::value(rows, time),
             EndSpin::Held | EndSpin::Swivel => 0.0,
         }
     }
 
     fn is_still(&self, time: f64) -> bool {
-        !matches!(*self, EndSpin::Motor { rate, until, .. } if rate != 0.0 && time < until)
+        self.is_steady(time, f64::INFINITY)
     }
 
     /// Whether it does not turn from one time to another.
     fn is_steady(&self, time: f64, to: f64) -> bool {
-        self.is_still(time) || matches!(*self, EndSpin::Motor { from, .. } if to <= from)
+        match self {
+            &EndSpin::Motor { rate, from, until } => rate == 0.0 || time >= until || to <= from,
+            EndSpin::Course(rows) => is_constant(rows, time, to),
+            EndSpin::Held | EndSpin::Swivel => true,
+        }
     }
 
     fn delay(&mut self, by: f64) {
-        if let EndSpin::Motor { from, until, .. } = self {
-            *from += by;
-            *until += by;
+        match self {
+            EndSpin::Motor { from, until, .. } => (*from, *until) = (*from + by, *until + by),
+            EndSpin::Course(rows) => rows.iter_mut().for_each(|row| row[0] += by),
+            EndSpin::Held | EndSpin::Swivel => {}
         }
     }
 
     fn check(&self) -> Result<(), Error> {
-        let EndSpin::Motor { rate, from, until } = *self else { return Ok(()) };
-        require("rate of a motor (turns/s)", rate, true, "a number")?;
-        require("start of a motor (s)", from, true, "a number")?;
-        require("end of a motor (s)", until, until >= from, "at or after its start")
+        match self {
+            &EndSpin::Motor { rate, from, until } => {
+                require("rate of a motor (turns/s)", rate, true, "a number")?;
+                require("start of a motor (s)", from, true, "a number")?;
+                require("end of a motor (s)", until, until >= from, "at or after its start")
+            }
+            EndSpin::Course(rows) => {
+                require("rows of the course of a motor", rows.len() as f64, !rows.is_empty(), ">= 1")?;
+                check_rows("the course of a motor (s, turns)", rows)
+            }
+            EndSpin::Held | EndSpin::Swivel => Ok(()),
+        }
     }
 }
 
 /// Torsion of an isotropic cable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torsion {
     /// Torsional stiffness GJ in N m^2, > 0.
@@ -140,7 +165,7 @@ pub struct Torsion {
     /// c and the diameter d, positive for a right-hand lay, which tension unlays; default 0, as a
     /// section that is isotropic has it. EA is then the axial stiffness while twist is held, and
     /// [`stiffness`](Self::stiffness) the torsional one while tension is: M = c d T + GJ times the
-    /// twist rate. Not on reels, nor with an axial law or a rest stretch.
+    /// twist rate. Not on reels, nor with an axial law.
     #[serde(default)]
     pub torque_per_tension: f64,
     /// Spin of the first node, if it is clamped.
@@ -149,13 +174,18 @@ pub struct Torsion {
     /// Spin of the last node, if it is clamped.
     #[serde(default)]
     pub end: EndSpin,
+    /// Spin of all nodes between that are clamped. A clamp that does not hold it lets the torque
+    /// through.
+    #[serde(default)]
+    pub inner: EndSpin,
 }
 
 impl Torsion {
     /// Torsion of stiffness GJ in N m^2: untwisted as built, clamps hold the spin.
     pub fn new(stiffness: f64) -> Self {
         let (initial_twist, damping, torque_per_tension) = (0.0, 0.0, 0.0);
-        Torsion { stiffness, initial_twist, damping, torque_per_tension, start: EndSpin::Held, end: EndSpin::Held }
+        let [start, end, inner] = [const { EndSpin::Held }; 3];
+        Torsion { stiffness, initial_twist, damping, torque_per_tension, start, end, inner }
     }
 
     /// That of a stranded rope of stiffness GJ in N m^2 by its torque factor c and its diameter in
@@ -185,15 +215,19 @@ impl Torsion {
 }
 
 impl Torsion {
+    /// Returns all settings of the spin.
+    fn spins(&self) -> [&EndSpin; 3] {
+        [&self.start, &self.end, &self.inner]
+    }
+
     /// Returns whether no motor turns from a time in s on.
     pub(crate) fn is_still(&self, time: f64) -> bool {
-        self.start.is_still(time) && self.end.is_still(time)
+        self.spins().iter().all(|spin| spin.is_still(time))
     }
 
     /// Lets motors turn later by a time in s.
     pub(crate) fn delay(&mut self, by: f64) {
-        self.start.delay(by);
-        self.end.delay(by);
+        [&mut self.start, &mut self.end, &mut self.inner].into_iter().for_each(|spin| spin.delay(by));
     }
 }
 
@@ -208,8 +242,7 @@ impl Effect for Torsion {
         if cable.has_no_bending() {
             return Err(cable.missing("torsion", Requirement::BendingRule));
         }
-        self.start.check()?;
-        self.end.check()
+        self.spins().iter().try_for_each(|spin| spin.check())
     }
 
     fn depends_on_velocity(&self) -> bool {
@@ -225,11 +258,12 @@ impl Effect for Torsion {
     }
 
     fn is_steady(&self, from: f64, to: f64) -> bool {
-        self.start.is_steady(from, to) && self.end.is_steady(from, to)
+        self.spins().iter().all(|spin| spin.is_steady(from, to))
     }
 
     fn cut(&self, _: Cut<'_>) -> [Option<Self>; 2] {
-        let (head, tail) = (Torsion { end: EndSpin::Held, ..*self }, Torsion { start: EndSpin::Held, ..*self });
+        let (head, tail) =
+            (Torsion { end: EndSpin::Held, ..self.clone() }, Torsion { start: EndSpin::Held, ..self.clone() });
         [Some(head), Some(tail)]
     }
 

@@ -17,7 +17,9 @@
 use super::Torsion;
 use super::element::{self, Blocks, COORDINATES, TwistChange, node_step, twist_change, twist_hessian};
 use super::lengths::Lengths;
-use super::stranded::{Strands, elongation, elongation_gradient, elongation_hessian};
+use super::path::twist_along;
+use super::stranded::{Strands, elongation, elongation_gradient, elongation_hessian, rest_elongation};
+use crate::effect::RestShape;
 use crate::linalg::{Block, BlockTridiagonal};
 use crate::section::Element;
 use crate::state::SegmentTwist;
@@ -46,17 +48,22 @@ pub(crate) struct Segment {
     pub stiffness: f64,
     /// Where tension makes torque.
     pub strands: Option<Strands>,
+    /// What the elongation of a rest stretch counts there as twist, in rad.
+    pub rest: f64,
 }
 
 impl Segment {
-    /// Returns that between two nodes that hold the spin of a cable, ascending.
-    pub fn between(torsion: &Torsion, elements: &[Element], nodes: [usize; 2]) -> Self {
+    /// Returns that between two nodes that hold the spin of a cable, ascending, of a shape without
+    /// stress.
+    pub fn between(torsion: &Torsion, shape: Option<&RestShape>, elements: &[Element], nodes: [usize; 2]) -> Self {
         let (own, strands) = (&elements[nodes[0]..nodes[1]], Strands::of(torsion));
+        let of = |strands: Strands, e: usize| strands.share(&elements[e]) * rest_elongation(shape, elements, e);
+        let rest = strands.map_or(0.0, |strands| (nodes[0]..nodes[1]).map(|e| of(strands, e)).sum());
         let stiffness = match strands {
             None => torsion.stiffness / own.iter().map(|element| element.length).sum::<f64>(),
             Some(strands) => own.iter().map(|e| e.length / strands.torsional(e)).sum::<f64>().recip(),
         };
-        Segment { nodes, stiffness, strands }
+        Segment { nodes, stiffness, strands, rest }
     }
 
     /// Returns the twist in rad that makes the torque at a twist of the material: that of the
@@ -65,18 +72,19 @@ impl Segment {
         let Some(strands) = self.strands else { return twist };
         let of =
             |e: usize| strands.share(&elements[e]) * elongation(&q[6 * e..6 * e + COORDINATES], elements[e].length);
-        twist + self.elements().map(of).sum::<f64>()
+        twist + self.elements().map(of).sum::<f64>() - self.rest
     }
 
     /// Returns the twist rate in rad/m of an element at a twist of the material in rad: the same in
     /// all, but where tension that differs along the segment makes torque.
-    pub fn rate_in(&self, elements: &[Element], q: &[f64], twist: f64, e: usize) -> f64 {
+    pub fn rate_in(&self, (elements, shape): (&[Element], Option<&RestShape>), q: &[f64], twist: f64, e: usize) -> f64 {
         let Some(strands) = self.strands else {
             return twist / elements[self.elements()].iter().map(|element| element.length).sum::<f64>();
         };
         let (element, own) = (&elements[e], &q[6 * e..6 * e + COORDINATES]);
         let of_torque = self.torque(elements, q, twist) / strands.torsional(element);
-        of_torque - strands.share(element) * elongation(own, element.length) / element.length
+        let elastic = elongation(own, element.length) - rest_elongation(shape, elements, e);
+        of_torque - strands.share(element) * elastic / element.length
     }
 
     /// Returns the torque in N m at a twist of the material in rad.
@@ -142,6 +150,14 @@ impl Segment {
             secant[own].iter_mut().zip(&part).for_each(|(out, x)| *out += x);
         });
         sum
+    }
+
+    /// Returns the twist in rad that the curve adds between two shapes without a step between them,
+    /// and the number of pairs that slip ([`path`](super::path)).
+    pub fn follow(&self, elements: &[Element], [from, to]: [&[f64]; 2]) -> (f64, u64) {
+        let of = |q: &[f64], e: usize| element::directions(&q[6 * e..6 * e + COORDINATES], elements[e].length);
+        let own = self.elements().map(|e| twist_along(of(from, e), of(to, e)));
+        own.fold((0.0, 0), |(angle, slips), (a, s)| (angle + a, slips + s))
     }
 
     /// Returns K at both ends of a step.

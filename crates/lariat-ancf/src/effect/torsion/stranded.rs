@@ -26,6 +26,8 @@
 //! E = l/2 [6/5 c.c - 1/5 c.(t_i + t_j) + 2/15 (t_i.t_i + t_j.t_j) - 1/15 t_i.t_j - 1]        c = (r_j - r_i)/l
 //! ```
 //!
+//! With a rest stretch f0 the elongation is counted from (f0^2 - 1)/2 l.
+//!
 //! # Validity
 //!
 //! The Green law, unstretched at rest; lengths that do not change (no reels); small tau d: a lay
@@ -45,6 +47,7 @@
 
 use super::Torsion;
 use super::element::COORDINATES;
+use crate::effect::RestShape;
 use crate::section::Element;
 
 /// k and GJ of a stranded rope.
@@ -118,4 +121,13 @@ pub(super) fn elongation_hessian(row: usize, column: usize, length: f64) -> f64 
     let of = |k: usize| [(0, -1.0 / length), (1, 1.0), (0, 1.0 / length), (2, 1.0)][k];
     let ((a, f), (b, g)) = (of(row), of(column));
     length * f * g * PRODUCTS[a][b]
+}
+
+/// Returns the elongation in m of an element without stress, `(f0^2 - 1)/2 l` with its rest stretch
+/// f0.
+pub(super) fn rest_elongation(shape: Option<&RestShape>, elements: &[Element], e: usize) -> f64 {
+    let Some(shape) = shape else { return 0.0 };
+    let (before, length) = (elements[..e].iter().map(|element| element.length).sum::<f64>(), elements[e].length);
+    let stretch = shape.at(before + 0.5 * length).0;
+    0.5 * (stretch * stretch - 1.0) * length
 }

@@ -1,5 +1,6 @@
 //! The twist of elements against identities and differences.
 
+use super::check::Check;
 use super::curve::Curve;
 use super::element::{COORDINATES, TwistChange, node_step, twist_gradient, twist_hessian};
 use super::lengths::Lengths;
@@ -148,7 +149,7 @@ fn a_change_of_the_mesh_adds_what_the_curve_does() {
             (6..12).for_each(|i| moved.q[i] += 0.2 * size * next());
             let elements = [0, 1].map(|_| Element { length: 0.5 * LENGTH, section });
             let step: Vec<f64> = moved.q.iter().zip(&halves.q).map(|(a, b)| a - b).collect();
-            let segment = Segment { nodes: [0, 2], stiffness: 1.0, strands: None };
+            let segment = Segment { nodes: [0, 2], stiffness: 1.0, strands: None, rest: 0.0 };
             let found = segment.change(&Lengths::fixed(&elements), &halves.q, &step, &mut Vec::new());
             let by_curve = halves.change_to(&moved);
             assert!((found.angle - by_curve).abs() < 1e-13, "{size}: {found:?}, {by_curve}");
@@ -270,7 +271,7 @@ fn the_bordered_matrix_of_a_segment_is_the_derivative_of_its_force() {
     let elements = sections.map(|section| Element { length: LENGTH, section });
     for per_tension in [0.0, 0.03, -0.2] {
         let torsion = Torsion { torque_per_tension: per_tension, ..Torsion::new(0.8) };
-        let segment = Segment::between(&torsion, &elements, [0, 3]);
+        let segment = Segment::between(&torsion, None, &elements, [0, 3]);
         for _ in 0..20 {
             let node =
                 |i: usize| if i.is_multiple_of(6) { LENGTH * (i / 6) as f64 } else { f64::from(u8::from(i % 6 == 3)) };
@@ -314,4 +315,98 @@ fn the_bordered_matrix_of_a_segment_is_the_derivative_of_its_force() {
             }
         }
     }
+}
+
+/// The coordinates of elements in a row whose slopes at nodes and in the middle have the given
+/// directions.
+fn coordinates(nodes: &[Vector3<f64>], middles: &[Vector3<f64>]) -> Vec<f64> {
+    let (mut r, mut q) = (Vector3::zeros(), Vec::new());
+    for (n, t) in nodes.iter().enumerate() {
+        q.extend(r.iter().chain(t.iter()));
+        if let (Some(m), Some(next)) = (middles.get(n), nodes.get(n + 1)) {
+            r += (m + (t + next) * 0.25) * (LENGTH / 1.5);
+        }
+    }
+    q
+}
+
+/// A change in one call is what it is in parts along the same great circles, by up to 175 degrees;
+/// what turns further away from its neighbour than 120 is counted, in parts as at once.
+///
+/// *Source.* The area of a geodesic quadrilateral is the sum of those of its parts.
+#[test]
+fn a_change_that_no_step_makes_is_the_sum_of_its_parts() {
+    let mut next = random(31);
+    let section = crate::Section::from_stiffness(1e3, 1.0, 0.1).unwrap();
+    let elements = [0, 1, 2].map(|_| Element { length: LENGTH, section });
+    let segment = Segment { nodes: [0, 3], stiffness: 1.0, strands: None, rest: 0.0 };
+    let (mut by_steps, mut sharp) = (0, 0);
+    for degrees in [20.0f64, 100.0, 150.0, 175.0] {
+        for run in 0..100 {
+            let mut direction = || Vector3::new(2.0, next(), next()).normalize();
+            let starts: [Vector3<f64>; 7] = core::array::from_fn(|_| direction());
+            // the last runs turn one of them the other way
+            let about: [Vector3<f64>; 7] = core::array::from_fn(|k| {
+                let axis = Vector3::new(0.1 * next(), 1.0, next());
+                let across = (axis - starts[k] * axis.dot(&starts[k])).normalize();
+                if run >= 90 && k == 3 { -across } else { across }
+            });
+            let at = |share: f64| {
+                let now: Vec<Vector3<f64>> = starts
+                    .iter()
+                    .zip(&about)
+                    .map(|(d, axis)| UnitQuaternion::from_scaled_axis(axis * (share * degrees.to_radians())) * d)
+                    .collect();
+                coordinates(&now[..4], &now[4..])
+            };
+            let once = segment.follow(&elements, [&at(0.0), &at(1.0)]);
+            let parts: Vec<(f64, u64)> = (0..50)
+                .map(|k| segment.follow(&elements, [&at(f64::from(k) / 50.0), &at(f64::from(k + 1) / 50.0)]))
+                .collect();
+            let (angle, slips) = parts.iter().fold((0.0, 0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+            assert_eq!(once.1 > 0, slips > 0, "{degrees}, {run}: {once:?} {slips}");
+            if slips == 0 {
+                assert!((once.0 - angle).abs() < 1e-12, "{degrees}, {run}: {once:?} {angle}");
+            }
+            sharp += u64::from(slips > 0 && run >= 90);
+            let step: Vec<f64> = at(1.0).iter().zip(at(0.0)).map(|(a, b)| a - b).collect();
+            by_steps += segment.change(&Lengths::fixed(&elements), &at(0.0), &step, &mut Vec::new()).slips;
+        }
+    }
+    // one step would not follow it
+    assert!(by_steps > 100 && sharp > 10, "{by_steps} {sharp}");
+}
+
+/// What slips on the way between two shapes is lost only if the twist is another one for it.
+///
+/// *Source.* Directors carried by smallest rotations.
+#[test]
+fn twist_that_comes_back_is_not_lost() {
+    let section = crate::Section::from_stiffness(1e3, 1.0, 0.1).unwrap();
+    let elements = [0, 1].map(|_| Element { length: LENGTH, section });
+    let segment = Segment { nodes: [0, 2], stiffness: 1.0, strands: None, rest: 0.0 };
+    let direction = |x: f64, y: f64, z: f64| Vector3::new(x, y, z).normalize();
+    let [a, b] = [direction(1.0, 0.3, 0.0), direction(1.0, 0.0, 0.4)];
+    let folded = [direction(-1.0, 0.4, 0.1), direction(0.2, -1.0, 0.3), direction(-0.3, 0.2, 1.0)];
+    let shape = |x: Vector3<f64>| coordinates(&[a, x, b], &[direction(1.0, 0.1, 0.2), direction(1.0, -0.1, 0.3)]);
+    let straight = shape(direction(1.0, 0.2, 0.2));
+    let curve = |q: &[f64]| Curve::between([0, 2], &elements, q);
+    let (mut lost, mut kept) = (0, 0);
+    for way in [vec![0], vec![0, 1], vec![0, 1, 2], vec![1, 0, 2]] {
+        let mut check = Check::of(&curve(&straight));
+        let (mut before, mut slips) = (straight.clone(), 0);
+        let ends = way.iter().map(|k| shape(folded[*k])).chain([straight.clone()]);
+        let mut sum = 0.0;
+        for q in ends {
+            let change = segment.follow(&elements, [&before, &q]);
+            check.follow(&curve(&q), change);
+            (slips, sum, before) = (slips + change.1, sum + change.0, q);
+        }
+        assert!(slips > 0, "{way:?} does not slip");
+        // the directors of both ends, which stay, say what the sum is: none, or whole turns
+        let off = (sum + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+        assert_eq!(check.lost(&curve(&before)) > 0, off.abs() > 1e-6, "{way:?} {off}");
+        if off.abs() > 1e-6 { lost += 1 } else { kept += 1 }
+    }
+    assert!(lost > 0 && kept > 0, "{lost} {kept}");
 }

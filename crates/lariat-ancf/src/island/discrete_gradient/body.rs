@@ -325,7 +325,9 @@ impl BodyStep {
         let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * self.leg.a * second.dot(&(self.matrix * second));
         let torque = self.torque + self.rotation * self.turning;
-        total.to(Account::Loads).work += self.h * (self.force.dot(&self.mean[0]) + torque.dot(&self.mean[1]));
+        let work = self.h * (self.force.dot(&self.mean[0]) + torque.dot(&self.mean[1]));
+        let loads = total.to(Account::Loads);
+        (loads.work, loads.aside) = (loads.work + work, loads.aside + work);
         total.held += 0.5 * start.dot(&(self.matrix * start)) + self.mass * STANDARD_GRAVITY.norm() * LEAST_HEIGHT;
     }
 

@@ -156,7 +156,8 @@ impl IslandStep<'_, '_> {
     pub(super) fn balance_wheels(&self, balance: &mut Balance) {
         for wheel in &self.buffers.unknowns.wheels {
             if let Some([a, b]) = self.feeds(wheel) {
-                wheel.add_balance([&a, &b], balance);
+                let step = (self.cables[0].time(), self.cables[0].step_buffers.h);
+                wheel.add_balance([&a, &b], step, balance);
             }
         }
         for winch in &self.buffers.unknowns.winches {

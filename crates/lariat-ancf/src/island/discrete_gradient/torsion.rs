@@ -139,7 +139,7 @@ impl IslandStep<'_, '_> {
         let StepBuffers { torsions: Torsions { list, found, .. }, bodies, cables: buffers, .. } = &mut *self.buffers;
         let mut count = 0;
         for (c, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.model.effects.torsion.is_some()) {
-            let Cable { model, snapshot, step_buffers, system, .. } = &mut **cable;
+            let Cable { model, snapshot, system, diagnostics, .. } = &mut **cable;
             system.feeds.list.iter_mut().for_each(|feed| feed.of_twist = 0.0);
             model.find_segments(found);
             let state = &mut snapshot.state;
@@ -155,14 +155,11 @@ impl IslandStep<'_, '_> {
                 own.damping = model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
                 own.ends = segment.nodes.map(|node| End::of(&buffers[c].holds, node));
                 let Some(twist) = state.memory.torsion.as_mut().and_then(|all| all.get_mut(number)) else { continue };
-                let moved = &mut own.secant;
-                moved.clear();
+                own.secant.clear();
                 if state.q[segment.range()] != before[segment.range()] {
-                    // no step is begun yet: its buffers are free
-                    let step = &mut step_buffers.change;
-                    step.clear();
-                    step.extend(state.q.iter().zip(before).map(|(now, then)| now - then));
-                    twist.twist += segment.change(&Lengths::fixed(&model.elements), before, step, moved).angle;
+                    let (angle, slips) = segment.follow(&model.elements, [before, &state.q]);
+                    twist.twist += angle;
+                    diagnostics.twist_slips += slips;
                 }
                 for (side, end) in own.ends.iter().enumerate() {
                     let (Some(body), Some(then)) = (end.body, twist.attitudes[side]) else { continue };
@@ -205,7 +202,7 @@ impl IslandStep<'_, '_> {
             own.before = own.remembered * (own.stiffness[0] / stiffness).sqrt();
             for (side, node) in own.segment.nodes.into_iter().enumerate() {
                 let time = snapshot.state.time;
-                let spin = torsion.map_or(EndSpin::Held, |torsion| model.end_spin(torsion, node));
+                let spin = torsion.map_or(&EndSpin::Held, |torsion| model.end_spin(torsion, node));
                 let end = &mut own.ends[side];
                 end.driven = spin.angle(time + b.h) - spin.angle(time);
                 end.angle = end.driven;

@@ -175,7 +175,7 @@ mod tests {
         let section = Section::from_stiffness(1e3, 1.0, 0.1).unwrap();
         let elements = [0, 1, 2].map(|_| Element { length: FULL, section });
         let torsion = Torsion::new(0.8);
-        let segment = Segment::between(&torsion, &elements, [0, 3]);
+        let segment = Segment::between(&torsion, None, &elements, [0, 3]);
         for size in [1e-5, 0.3, 1.0] {
             for _ in 0..100 {
                 let node = |e: usize, i: usize| if i == 0 { FULL * e as f64 } else { f64::from(u8::from(i == 3)) };

@@ -7,7 +7,8 @@ use crate::cable::Cable;
 use crate::cable::Snapshot;
 use crate::contact::Overlap;
 use crate::error::{EquilibriumFailure, Error, require};
-use crate::model::Model;
+use crate::model::{LoadScale, Model};
+use crate::scales::statics::PULLS;
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
@@ -68,14 +69,16 @@ impl Cable {
                 self.snapshot.work = work;
                 self.set_at_rest();
                 self.snapshot.state.memory.contacts = contacts;
-                if let Some(failure) = self.crosses() {
+                let pulls = PULLS
+                    * report.residual.max(options.tolerance * LoadScale::new(&self.model, self.positions()).force);
+                if let Some(failure) = self.crosses().or_else(|| self.slips(pulls)) {
                     self.snapshot = before;
                     return Err(no_equilibrium(self, failure, 0.0, iterations));
                 }
                 Ok(EquilibriumReport { iterations, ..report })
             }
             Err(failure) => {
-                let fold = first_fold(self, self.positions());
+                let fold = failure.fold.or_else(|| first_fold(self, self.positions()));
                 self.snapshot = before;
                 self.revision = revision;
                 let reason = match (failure.cause, fold) {
@@ -108,7 +111,7 @@ impl Cable {
         self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
         self.system.static_contact.end();
         if let Some(mut torsion) = self.system.static_torsion.take() {
-            torsion.end(&self.model, &mut self.snapshot.state);
+            self.diagnostics.twist_slips += torsion.end(&self.model, &mut self.snapshot.state);
         }
         contacts
     }
@@ -156,7 +159,7 @@ impl Cable {
                 Err(failure) => {
                     // an attempt without an iteration has no residual
                     let residual = if failure.residual.is_nan() { last.residual } else { failure.residual };
-                    last = Failure { residual, ..failure };
+                    last = Failure { residual, fold: failure.fold.or(last.fold), ..failure };
                 }
             }
             if budget.spent() {
@@ -203,8 +206,9 @@ impl Cable {
         let residual = search.residual;
         match outcome {
             Ok(stable) => Ok(EquilibriumReport { iterations: budget.done, residual, stable }),
-            Err(EquilibriumFailure::Step(cause)) => Err(Failure { cause: Some(cause), residual }),
-            Err(_) => Err(Failure { cause: None, residual }),
+            Err(EquilibriumFailure::Step(cause)) => Err(Failure { cause: Some(cause), residual, fold: None }),
+            Err(EquilibriumFailure::Folded { element }) => Err(Failure { residual, fold: Some(element), cause: None }),
+            Err(_) => Err(Failure { residual, fold: None, cause: None }),
         }
     }
 
@@ -234,7 +238,7 @@ impl Cable {
         let report = self.minimise_energy(1.0, budget)?;
         match first_fold(self, self.positions()) {
             None => Ok(report),
-            Some(_) => Err(Failure { cause: None, residual: report.residual }),
+            fold => Err(Failure { cause: None, residual: report.residual, fold }),
         }
     }
 }

@@ -159,7 +159,7 @@ fn settle_driven(
     let outcome = settle(cables, bodies, (pins, joints, sheaves, Loads(loads)), options, false);
     let (Err(error), Some(start)) = (&outcome, start) else { return outcome };
     let Error::NoEquilibrium { failure, iterations: first, .. } = error else { return outcome };
-    if matches!(failure, EquilibriumFailure::NotHeld | EquilibriumFailure::Touches { .. }) {
+    if failure.is_final() {
         return outcome;
     }
     let mut iterations = *first;
@@ -235,7 +235,13 @@ fn settle(
             body.rotation = found.rotation;
         }
         match passing.pass(cables, &mut pins, PULLS * search.tolerance)? {
-            Balance::Rest => return Ok(EquilibriumReport { iterations, residual: search.residual, stable }),
+            Balance::Rest => {
+                let slips = |cable: &&mut Cable| cable.slips(PULLS * search.tolerance).map(|f| failed(cable, f));
+                return match cables.iter().find_map(slips) {
+                    Some(error) => Err(error),
+                    None => Ok(EquilibriumReport { iterations, residual: search.residual, stable }),
+                };
+            }
             Balance::Moved => {}
             Balance::Never => return Err(failed(cables[0], EquilibriumFailure::NotConverged)),
         }

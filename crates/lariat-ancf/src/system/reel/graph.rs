@@ -8,18 +8,24 @@
 //! does not slip, and N the reaction of the stops:
 //!
 //! ```text
-//! F(a) in P Sign(a - a_0) + N(a)      N <= 0 at the least a, N >= 0 at the largest one, else N = 0
+//! F(a) in P (Sign(a - a_0) + Sign(a - a_1))/2 + N(a)
+//! N <= 0 at the least a, N >= 0 at the largest one, else N = 0
 //! P = grip max(0, min(F_1, F_2) - lift) + limit
 //! ```
 //!
-//! | law | F | P | a_0 |
-//! |---|---|---|---|
-//! | [motor](super::law), brake, free spool | pull less inertia | largest force | that of the commanded rate |
-//! | [sheave](super::wheel) | difference of both pulls, less inertia | capstan and bearing | that which stops it |
-//! | [drum](super::drum) | what its spin leaves, with its torque eliminated | 0: the stops alone | none |
+//! a_1 is the acceleration at which the slip is zero in the mean of the step, so that F is P of one
+//! sign only where slips in the mean and at the end have it, and 0 where the slip turns back but not
+//! as far as it came: friction loses energy in every step, `F times the mean slip >= 0`, and what
+//! stands stays. Of a motor a_1 = a_0: it has energy to give.
+//!
+//! | law | F | P | a_0 | a_1 |
+//! |---|---|---|---|---|
+//! | [motor](super::law), brake, free spool | pull less inertia | largest force | that of the commanded rate | a_0 |
+//! | [sheave](super::wheel) | difference of both pulls, less inertia | capstan and bearing | that which stops it | twice that |
+//! | [drum](super::drum) | what its spin leaves, with its torque eliminated | 0: the stops alone | none | none |
 //!
 //! F and the pulls are linear in a within a Newton iteration, and F falls, so the graph is met
-//! exactly by one of five points: two that slip, one that sticks, two stops.
+//! exactly by one of seven points: two that slip, two corners, one between these, two stops.
 //!
 //! # Validity
 //!
@@ -60,11 +66,14 @@ impl Bound {
     }
 }
 
-/// Accelerations of a step: least, that which does not slip, largest.
+/// Accelerations of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Graph {
     pub least: f64,
+    /// That which does not slip at the end.
     pub wanted: f64,
+    /// That which does not slip in the mean.
+    pub balanced: f64,
     pub largest: f64,
 }
 
@@ -84,53 +93,61 @@ impl Graph {
         }
     }
 
-    /// Returns the acceleration at which a force meets the graph, from a present one; `pulls` press
-    /// where it slips to larger and to lesser accelerations.
+    /// Returns the two corners, the lower one first.
+    fn corners(&self) -> [f64; 2] {
+        [self.wanted.min(self.balanced), self.wanted.max(self.balanced)]
+    }
+
+    /// Returns the acceleration at which a force meets the graph, from a present one; the lesser of
+    /// both `pulls` presses, without inertia the first one where it slips to larger accelerations.
     pub fn meet(&self, present: f64, force: Line, bound: &Bound, pulls: &[Line; 2]) -> f64 {
         let slip = |sign: f64| {
-            let pull = pulls[usize::from(sign < 0.0)];
-            let with = |grip: f64| {
+            let with = |grip: f64, pull: &Line| {
                 let stiffness = force.stiffness - sign * grip * pull.stiffness;
                 let over = force.value - sign * (grip * (pull.value - bound.lift) + bound.limit);
                 over / stiffness.max(f64::MIN_POSITIVE)
             };
-            let x = with(bound.grip);
-            present + if pull.at(x) >= bound.lift { x } else { with(0.0) }
+            // without inertia that towards which it slips is the larger one
+            let [less, more] = if sign < 0.0 { [&pulls[1], &pulls[0]] } else { [&pulls[0], &pulls[1]] };
+            let (x, y) = (with(bound.grip, less), with(bound.grip, more));
+            let (x, pull) = if less.at(x) > more.at(x) && more.at(y) <= less.at(y) { (y, more) } else { (x, less) };
+            present + if pull.at(x) >= bound.lift { x } else { with(0.0, pull) }
         };
-        let wanted = self.wanted;
-        if wanted != 0.0 {
-            let running = -1.0f64.copysign(wanted);
+        let [low, high] = self.corners();
+        if self.wanted != 0.0 {
+            let running = -1.0f64.copysign(self.wanted);
             let on = slip(running);
-            if (on - wanted) * running > 0.0 {
+            if (on - if running > 0.0 { high } else { low }) * running > 0.0 {
                 return self.bounded(on);
             }
         }
-        let x = wanted - present;
-        let needed = force.at(x);
-        if needed.abs() <= bound.under(pulls[0].at(x).min(pulls[1].at(x))) {
-            return self.bounded(wanted);
-        }
-        self.bounded(slip(1.0f64.copysign(needed)))
+        let needed = |at: f64| force.at(at - present);
+        let beyond = |at: f64| needed(at).abs() > bound.under(pulls[0].at(at - present).min(pulls[1].at(at - present)));
+        let met = if needed(high) >= 0.0 {
+            if beyond(high) { slip(1.0) } else { high }
+        } else if needed(low) <= 0.0 {
+            if beyond(low) { slip(-1.0) } else { low }
+        } else {
+            present + force.value / force.stiffness.max(f64::MIN_POSITIVE)
+        };
+        self.bounded(met)
     }
 
     /// Returns by how much a force in N at an acceleration is off the graph, whose largest force is
     /// `bound` (N).
     pub fn violation(&self, acceleration: f64, force: f64, bound: f64) -> f64 {
         let rounding = 1e-12 * (1.0 + acceleration.abs());
-        let stopped = |at: f64| at >= self.largest - rounding;
-        let stopped_below = |at: f64| at <= self.least + rounding;
-        let (beyond, below) = ((force - bound).max(0.0), (-bound - force).max(0.0));
-        if (acceleration - self.wanted).abs() <= rounding {
-            // one that is to stand at a stop: that takes what friction and motor do not
-            let beyond = if stopped(self.wanted) { 0.0 } else { beyond };
-            beyond.max(if stopped_below(self.wanted) { 0.0 } else { below })
-        } else if stopped(acceleration) {
-            (bound - force).max(0.0)
-        } else if stopped_below(acceleration) {
-            (bound + force).max(0.0)
-        } else {
-            (force - bound.copysign(acceleration - self.wanted)).abs()
+        let [low, high] = self.corners().map(|corner| acceleration - corner);
+        let sign = |slip: f64| if slip.abs() <= rounding { [-1.0, 1.0] } else { [1.0f64.copysign(slip); 2] };
+        let ([a, b], [c, d]) = (sign(low), sign(high));
+        let [mut least, mut most] = [0.5 * bound * (a + c), 0.5 * bound * (b + d)];
+        if acceleration >= self.largest - rounding {
+            most = f64::INFINITY;
         }
+        if acceleration <= self.least + rounding {
+            least = f64::NEG_INFINITY;
+        }
+        (force - most).max(0.0) + (least - force).max(0.0)
     }
 }
 
@@ -138,8 +155,8 @@ impl Graph {
 mod tests {
     use super::*;
 
-    /// The point that is met is on the graph: of motors, and of sheaves without inertia, at rest
-    /// and running, with stops near and far.
+    /// The point that is met is on the graph: of motors, and of sheaves with and without inertia, at
+    /// rest and running, with stops near and far. Friction loses energy.
     ///
     /// *Source.* The graph itself: force, bound and stops at the point.
     #[test]
@@ -152,20 +169,31 @@ mod tests {
         };
         for i in 0..20_000 {
             let wanted = if i % 3 == 0 { 0.0 } else { 4.0 * any() };
-            let graph = Graph { least: wanted - 9.0 * any().abs(), wanted, largest: wanted + 9.0 * any().abs() };
+            // of a motor, or of friction on what runs against it
+            let balanced = if i % 4 == 0 { wanted } else { wanted * (1.0 + any().abs()) };
+            let graph =
+                Graph { least: wanted - 9.0 * any().abs(), wanted, balanced, largest: wanted + 9.0 * any().abs() };
             let pulls = [-1.0, 1.0].map(|sign| {
                 let stiffness = sign * (0.1 + any().abs());
                 Line { value: 2.0 + 10.0 * any(), stiffness }
             });
             let [a, b] = pulls;
-            let force = Line { value: b.value - a.value, stiffness: b.stiffness - a.stiffness };
+            let present = 5.0 * any();
+            let inertia = if i % 5 < 2 { 0.0 } else { 4.0 * any().abs() };
+            let force = Line {
+                value: b.value - a.value - inertia * present,
+                stiffness: b.stiffness - a.stiffness + inertia,
+            };
             let grip = if i % 2 == 0 { 0.0 } else { 3.0 * any().abs() };
             let bound = Bound { limit: 3.0 * any().abs(), grip, lift: 0.3 * any().abs() };
-            let present = 5.0 * any();
             let at = graph.meet(present, force, &bound, &pulls);
             let x = at - present;
             let missed = graph.violation(at, force.at(x), bound.under(a.at(x).min(b.at(x))));
             assert!(missed < 1e-9, "{i}: {missed:e} at {at} of {graph:?}, {force:?}, {bound:?}");
+            if at > graph.least && at < graph.largest {
+                let power = force.at(x) * (at - balanced);
+                assert!(i % 4 == 0 || power > -1e-9, "{i}: {power:e} at {at} of {graph:?}, {force:?}, {bound:?}");
+            }
             seen[if at == wanted {
                 0
             } else if at == graph.least {

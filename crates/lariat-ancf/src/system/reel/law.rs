@@ -12,8 +12,10 @@
 //!
 //! a_0 is what the *commanded rate* c needs. The shaft of the motor turns with it: c approaches the
 //! rate asked for, linearly over a host step and within the limit on acceleration, whether the
-//! wheel follows or slips. At the end of the stock and at the least length the acceleration, and
-//! with it c, is bounded whatever T is. A slipping motor opposes the slip, so it only dissipates. A
+//! wheel follows or slips. c comes to rest at the end of the stock, at the least length and at a
+//! length that is asked for within the limit on acceleration; a wheel that slips comes there with
+//! its own rate, and the first two stop it at once, whatever T is: a stop is rigid, and the stretch
+//! of the rope brakes what hangs on it. A slipping motor opposes the slip, so it only dissipates. A
 //! T_max that the host lowers is approached linearly over a host step.
 //!
 //! # Solution
@@ -62,6 +64,10 @@ pub(crate) struct Motor {
     /// Rate in m/s asked for, and largest acceleration of the commanded rate to it in m/s^2.
     pub asked: f64,
     pub acceleration: f64,
+    /// Largest deceleration in m/s^2 of a wheel that comes to an end of what it may have.
+    pub stop: f64,
+    /// Length in m of the element at which the commanded rate is to end.
+    pub target: Option<f64>,
     /// What it was left in; `None` where the rate is not that of a motor, and the commanded one
     /// begins every step at it.
     pub before: Option<MotorState>,
@@ -147,6 +153,20 @@ pub(crate) fn rates(acceleration: f64, rate: f64, left: [f64; 2], h: f64) -> [f6
     [least, largest.max(least)]
 }
 
+/// Returns the rate in m/s after a step of length `h` (s) of what is to end in a length that is
+/// `way` (m) ahead: `asked`, or the largest from where it can still stop there by an acceleration,
+/// within limits of what the acceleration gives. Where it is too fast, it comes back.
+pub(crate) fn towards(
+    acceleration: f64,
+    (rate, asked): (f64, f64),
+    (way, h): (f64, f64),
+    [low, high]: [f64; 2],
+) -> f64 {
+    let left = if way < 0.0 { [-way, 0.0] } else { [0.0, way] };
+    let [least, largest] = rates(acceleration, rate, left, h);
+    asked.clamp(least, largest).clamp(low, high)
+}
+
 impl Law {
     /// Creates the law of a motor for a host step that begins at a time in s.
     pub fn new(motor: Motor, begun: f64) -> Self {
@@ -165,18 +185,24 @@ impl Law {
     /// Begins a step of length `h` (s) at `time` (s) from an extent.
     pub(super) fn begin(&mut self, feed: &Extent, time: f64, h: f64) {
         let Extent { length, rate, .. } = *feed;
-        let Motor { limits, duration, host, asked, acceleration, bounds, before, .. } = self.motor;
+        let Motor { limits, duration, host, asked, acceleration, stop, target: end, bounds, before, .. } = self.motor;
         let left = [length - bounds[0], bounds[1] - length];
-        let [least, largest] = rates(acceleration, rate, left, h);
+        let [least, largest] = rates(stop, rate, left, h);
+        let [low, high] = rates(acceleration, rate, left, h);
         let (from, over, share) = before.map_or((rate, h, 1.0), |before| {
             let share = (time + h - self.begun) / host;
             // a sum of steps ends there to rounding
             (before.commanded, host, if share > ALL { 1.0 } else { share })
         });
         let target = asked.clamp(from - acceleration * over, from + acceleration * over);
-        self.commanded = if share == 1.0 { target } else { from + share * (target - from) }.clamp(least, largest);
+        let mut commanded = if share == 1.0 { target } else { from + share * (target - from) };
+        if let Some(end) = end {
+            let reached = acceleration * share * over;
+            commanded = towards(acceleration, (rate, commanded), (end - length, h), [from - reached, from + reached]);
+        }
+        self.commanded = commanded.clamp(low, high).clamp(least, largest);
         let [least, wanted, largest] = [least, self.commanded, largest].map(|end| (end - rate) / h);
-        self.graph = Graph { least, wanted, largest };
+        self.graph = Graph { least, wanted, balanced: wanted, largest };
         let middle = (time + 0.5 * h - self.begun) / duration;
         self.limit = limits[1] + (1.0 - middle).clamp(0.0, 1.0) * (limits[0] - limits[1]);
         self.reach = REACH.map(|share| 2.0 * ((share - 1.0) * length - h * rate) / (h * h));

@@ -51,7 +51,7 @@ mod work;
 
 pub(crate) use drum::Winch;
 pub(crate) use feeds::{FeedElement, Feeds, Source};
-pub(crate) use law::{Law, Motor, MotorState, rates};
+pub(crate) use law::{Law, Motor, MotorState, rates, towards};
 pub use sheave::Sheave;
 pub(crate) use unknowns::Unknowns;
 pub(crate) use wheel::Wheel;

@@ -120,7 +120,7 @@ impl Equations<'_> {
             let slipped = feed.extent.acceleration != law.graph.wanted;
             (feed.start, feed.extent) = (time, extent);
             law.begin(&extent, time, h);
-            let Graph { least, wanted, largest } = law.graph;
+            let Graph { least, wanted, largest, .. } = law.graph;
             feed.extent.acceleration = law.bounded(if slipped { extent.acceleration } else { wanted });
             feed.stopped = wanted == least || wanted == largest;
         }

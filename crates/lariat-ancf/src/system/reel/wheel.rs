@@ -72,9 +72,9 @@ impl Wheel {
         let left = feeds.map(|feed| feed.left());
         let [least, largest] = rates(STOP, rate, [left[1], left[0]], h);
         let reach = [feeds[1].reach()[0].max(-feeds[0].reach()[1]), feeds[1].reach()[1].min(-feeds[0].reach()[0])];
-        let ends = [least, 0.0f64.clamp(least, largest), largest].map(|end| (end - rate) / h);
-        let [least, largest] = [ends[0], ends[2]].map(|end| end.max(reach[0]).min(reach[1]));
-        self.graph = Graph { least, wanted: ends[1], largest };
+        let accelerate = |end: f64| (end.clamp(least, largest) - rate) / h;
+        let [least, largest] = [least, largest].map(|end| accelerate(end).max(reach[0]).min(reach[1]));
+        self.graph = Graph { least, wanted: accelerate(0.0), balanced: accelerate(-rate), largest };
         self.bound = self.sheave.bound(tangents, inertia * rate * rate);
         let present = if rate == 0.0 { self.graph.wanted } else { feeds[1].extent.acceleration };
         self.graph.bounded(present)
@@ -94,12 +94,17 @@ impl Wheel {
         b - a - self.sheave.inertia * acceleration
     }
 
-    /// Adds to a balance by how much the iterate breaks the law; the feeds hold its pulls.
-    pub fn add_balance(&self, feeds: [&FeedElement; 2], balance: &mut Balance) {
-        let acceleration = feeds[1].extent.acceleration;
+    /// Adds to a balance what friction takes over a step of length `h` (s) from `time`, and by how
+    /// much the iterate breaks the law; the feeds hold its pulls. Where that makes friction push,
+    /// its work is energy that the step makes.
+    pub fn add_balance(&self, feeds: [&FeedElement; 2], (time, h): (f64, f64), balance: &mut Balance) {
+        let Extent { rate, acceleration, .. } = feeds[1].over(time, h).0;
         let [a, b] = feeds.map(FeedElement::pull_of_iterate);
         let (friction, bound) = (self.friction([a, b], acceleration), self.bound.under(a.min(b)));
+        let taken = friction * rate * h;
+        balance.residual += (-taken).max(0.0);
         let entry = balance.to(Account::Reels);
+        entry.aside += taken.max(0.0);
         entry.missed += self.graph.violation(acceleration, friction, bound);
         entry.forces += a.abs() + b.abs();
     }

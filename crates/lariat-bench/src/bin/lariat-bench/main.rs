@@ -114,6 +114,10 @@ fn make_report(out: &Path, quick: bool, readme: Option<&Path>) -> Result<String,
 
 fn measure_coupling(out: &Path) -> Result<String, Error> {
     // a file that cannot be written is known before the measurement
+    let table = out.with_extension("csv");
+    if !page::has_title(out, "The cost of a cable on a body")? && table.exists() {
+        return Err(lariat_scene::Error::InTheWay { path: table }.into());
+    }
     page::write(out, "")?;
     let (text, table) = coupling::measure(&mut |line| eprintln!("{line}"))?;
     page::write(out, &text)?;
@@ -123,6 +127,9 @@ fn measure_coupling(out: &Path) -> Result<String, Error> {
 
 fn measure_table1(csv: Option<&Path>) -> Result<String, Error> {
     if let Some(path) = csv {
+        if path.exists() {
+            return Err(lariat_scene::Error::InTheWay { path: path.to_path_buf() }.into());
+        }
         page::write(path, "")?;
     }
     let table = table1::measure(3)?;

@@ -22,7 +22,7 @@ pub struct Arguments {
 /// Runs the pairs and writes the page and its files.
 pub fn measure(arguments: &Arguments) -> Result<String, Error> {
     let Arguments { out, feature } = arguments;
-    lariat_bench::page::create_folder(out)?;
+    lariat_bench::page::create_folder(out, "matrix.md", "Every pair of features")?;
     let pairs: Vec<Pair> = Pair::all().into_iter().filter(|pair| feature.iter().all(|f| pair.has(*f))).collect();
     let bar = ProgressBar::new(pairs.len() as u64);
     // a panic is an outcome, and the page tells it

@@ -51,7 +51,7 @@ impl Arguments {
 /// Runs the cases and writes the page and its files.
 pub fn measure(arguments: &Arguments) -> Result<String, Error> {
     let out = &arguments.out;
-    lariat_bench::page::create_folder(out)?;
+    lariat_bench::page::create_folder(out, "stability.md", "Hard cases")?;
     let families = if arguments.family.is_empty() { Family::ALL.to_vec() } else { arguments.family.clone() };
     let selected = |selection| families.iter().flat_map(move |family| jobs(*family, selection));
     let names: BTreeMap<_, _> = families.iter().map(|family| (*family, names(*family))).collect();

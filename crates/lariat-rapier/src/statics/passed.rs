@@ -1,0 +1,148 @@
+//! Whether cables passed through each other, or through bodies that they move, between the drawn
+//! and the found shape.
+//!
+//! # Equation
+//!
+//! Statics compute no contact there, so a shape may be found on the other side of what was drawn
+//! beside it. Every particle goes straight from its drawn to its found place. Cables that touch
+//! cables are refused if the [senses](lariat_ancf::contact::crossed_on) of their passages on that
+//! way do not cancel; a cable and a body, seen from the body, if the found line is in it, or a
+//! particle enters it by one face and leaves it by an opposite one.
+//!
+//! # Validity
+//!
+//! Of a pair whose way does not cross nothing is said: it may still rest a radius deep in each
+//! other. Lines that stay in one plane pass unseen. A cable with a free end that came round the end
+//! of another is refused, too.
+
+use crate::contact::broad::Finder;
+use crate::contents::Contents;
+use crate::contents::rules::ContactRules;
+use crate::convert::{rotation, vector};
+use crate::error::Error;
+use crate::handle::CableHandle;
+use crate::read::inside::{deepest_beside, held_beside, passes};
+use crate::scales::read::POINTS;
+use ::nalgebra::Vector3;
+use lariat_ancf::Cable;
+use lariat_ancf::contact::{Way, crossed_on};
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::Collider;
+use rapier::math::Pose;
+use rapier::pipeline::PhysicsWorld;
+
+/// A cable as it was drawn and as it was found.
+pub(crate) struct Moved<'a> {
+    index: usize,
+    drawn: &'a Cable,
+    found: &'a Cable,
+    way: Way,
+}
+
+impl<'a> Moved<'a> {
+    pub fn new(index: usize, drawn: &'a Cable, found: &'a Cable) -> Self {
+        let chords = POINTS * drawn.elements().len().max(found.elements().len());
+        // material runs over sheaves: particles are then those at the same share of the length
+        let points = |cable: &Cable| {
+            let at = |i: usize| cable.sample(cable.length() * i as f64 / chords as f64);
+            (0..=chords).filter_map(|i| at(i).ok().map(|sample| sample.position)).collect()
+        };
+        Moved { index, drawn, found, way: Way { from: points(drawn), to: points(found) } }
+    }
+
+    /// Returns the arc length in m at which a chord begins.
+    fn arc_length(&self, chord: usize) -> f64 {
+        self.found.length() * chord as f64 / (self.way.to.len() - 1).max(1) as f64
+    }
+}
+
+/// Refuses shapes that were found beyond what the cables touch, of cables by their index, with the
+/// new poses of the bodies that were moved.
+pub(crate) fn check_passed(
+    contents: &Contents,
+    finder: &Finder,
+    world: &PhysicsWorld,
+    mut moved: Vec<Moved<'_>>,
+    poses: &[(RigidBodyHandle, Pose)],
+) -> Result<(), Error> {
+    moved.retain(|own| own.found.effects().contact.is_some());
+    moved.sort_unstable_by_key(|own| own.index);
+    for (i, own) in moved.iter().enumerate() {
+        let itself = own.found.effects().contact.is_some_and(|contact| contact.itself);
+        if let Some([chord, _]) = crossed_on(&own.way, None).filter(|_| itself) {
+            return Err(crossed(own, own, chord));
+        }
+        for other in &moved[i + 1..] {
+            if may_touch(contents, own, other)
+                && let Some([chord, _]) = crossed_on(&own.way, Some(&other.way))
+            {
+                return Err(crossed(own, other, chord));
+            }
+        }
+        for (handle, to) in poses {
+            check_body(contents, finder, world, own, (*handle, to))?;
+        }
+    }
+    Ok(())
+}
+
+fn crossed(one: &Moved<'_>, other: &Moved<'_>, chord: usize) -> Error {
+    Error::CablesPassInStatics {
+        cable: one.found.name().to_string(),
+        other: other.found.name().to_string(),
+        arc_length: one.arc_length(chord),
+    }
+}
+
+/// Returns whether two cables touch each other.
+fn may_touch(contents: &Contents, one: &Moved<'_>, other: &Moved<'_>) -> bool {
+    let of = |own: &Moved<'_>| {
+        let contact = own.found.effects().contact.filter(|contact| contact.cables)?;
+        Some((&contents.cables.get(own.index)?.rules, contact.friction))
+    };
+    let (Some(mine), Some(theirs)) = (of(one), of(other)) else { return false };
+    ContactRules::between(mine, theirs).is_some()
+}
+
+/// Refuses a cable that is in a body which was moved, or went through it.
+fn check_body(
+    contents: &Contents,
+    finder: &Finder,
+    world: &PhysicsWorld,
+    own: &Moved<'_>,
+    (handle, to): (RigidBodyHandle, &Pose),
+) -> Result<(), Error> {
+    let (Some(body), Some(slot)) = (world.bodies.get(handle), contents.cables.get(own.index)) else { return Ok(()) };
+    for &found in body.colliders() {
+        let cable = CableHandle(own.index as u32);
+        let Some(collider) = finder.touched(world, cable, &slot.rules, found) else { continue };
+        let Some(local) = collider.position_wrt_parent() else { continue };
+        let except = held_beside(contents, cable, own.drawn, collider);
+        let at = |pose: Pose| {
+            let mut collider: Collider = collider.clone();
+            collider.set_position(pose * *local);
+            collider
+        };
+        let (before, after) = (at(*body.position()), at(*to));
+        if deepest_beside(own.drawn, &before, &except).is_some() {
+            // it starts inside, which is told by itself
+            continue;
+        }
+        let seen = |x: &Vector3<f64>| {
+            let local = rotation(before.rotation()).inverse() * (x - vector(before.translation()));
+            vector(after.translation()) + rotation(after.rotation()) * local
+        };
+        let held = |s: f64| except.iter().any(|[from, to]| (from..=to).contains(&&s));
+        let ways = own.way.from.iter().zip(&own.way.to).enumerate();
+        let mut through = ways.filter(|(i, (from, to))| !held(own.arc_length(*i)) && passes(&after, &seen(from), to));
+        let place = deepest_beside(own.found, &after, &except).map(|(s, _)| s);
+        if let Some(arc_length) = place.or_else(|| through.next().map(|(i, _)| own.arc_length(i))) {
+            return Err(Error::CablePassesBodyInStatics {
+                cable: own.found.name().to_string(),
+                body: handle,
+                arc_length,
+            });
+        }
+    }
+    Ok(())
+}
