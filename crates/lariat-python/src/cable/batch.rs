@@ -27,23 +27,25 @@ fn apart(cables: &[Bound<'_, Cable>]) -> PyResult<Vec<(Shared<ancf::Cable>, usiz
 /// NoCableError.
 #[pyfunction]
 pub fn states<'py>(py: Python<'py>, cables: Vec<Bound<'py, Cable>>) -> PyResult<Bound<'py, PyAny>> {
-    let (mut times, mut nodes, mut read) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut times, mut nodes, mut read) = (Vec::new(), Vec::new(), [Vec::new(), Vec::new()]);
     for cable in &cables {
         let one = |cable: &ancf::Cable| Ok((cable.time(), cable.positions().to_vec(), cable.velocities().to_vec()));
         let (time, coordinates, rates) = cable.get().read(py, one)?;
         times.push(time);
         nodes.push((coordinates.len() / 6) as i64);
-        read.push((coordinates, rates));
+        read[0].push(coordinates);
+        read[1].push(rates);
     }
     let most = nodes.iter().max().map_or(0, |most| *most as usize);
-    let fill = |of: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
-        let mut all = vec![f64::NAN; read.len() * most * 6];
-        for (row, values) in all.chunks_exact_mut((most * 6).max(1)).zip(&read) {
-            row[..of(values).len()].copy_from_slice(of(values));
+    let fill = |of: &[Vec<f64>]| {
+        let mut all = vec![f64::NAN; of.len() * most * 6];
+        for (row, values) in all.chunks_exact_mut((most * 6).max(1)).zip(of) {
+            row[..values.len()].copy_from_slice(values);
         }
-        PyArray1::from_vec(py, all).reshape([read.len(), most, 6])
+        PyArray1::from_vec(py, all).reshape([of.len(), most, 6])
     };
-    let (coordinates, rates) = (fill(|values| &values.0)?, fill(|values| &values.1)?);
+    let [coordinates, rates] = &read;
+    let (coordinates, rates) = (fill(coordinates)?, fill(rates)?);
     result(py, "States", (coordinates, rates, PyArray1::from_vec(py, times), PyArray1::from_vec(py, nodes)))
 }
 
