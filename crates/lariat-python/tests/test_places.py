@@ -72,6 +72,7 @@ CALLS: dict[tuple[str, str, str], Callable[[Any], Any]] = {
     ("Cable", "cut", "at"): lambda at: alone(lambda c: c.cut(at)),
     ("Cable", "add_reel", "at"): lambda at: alone(lambda c: c.add_reel(at, lariat.Reel(0.5)), ["start", "end"]),
     ("Cable", "set_reel", "at"): lambda at: alone(lambda c: (c.add_reel(at, lariat.Reel(0.5)), c.set_reel(at, lariat.Reel(0.2))), ["start", "end"]),
+    ("Cable", "set_reel_length", "at"): lambda at: alone(lambda c: (c.add_reel(at, lariat.Reel(0.5)), c.set_reel_length(at, 1.2, 0.2)), ["start", "end"]),
     ("Cable", "set_reel_rate", "at"): lambda at: alone(lambda c: (c.add_reel(at, lariat.Reel(0.5)), c.set_reel_rate(at, 0.2)), ["start", "end"]),
     ("Cable", "remove_reel", "at"): lambda at: alone(lambda c: (c.add_reel(at, lariat.Reel(0.5)), c.remove_reel(at)), ["start", "end"]),
     ("Cable", "reel", "at"): lambda at: alone(lambda c: (c.add_reel("end", lariat.Reel(0.5)), c.reel(at)), ["start", "end"]),

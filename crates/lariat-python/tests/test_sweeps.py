@@ -107,7 +107,7 @@ def test_a_restart_runs_only_what_is_missing(tmp_path: Path) -> None:
     first = lariat.sweep(SCENE, {**GRID, "duration": [0.1, -1.0]}, out=tmp_path, progress=False)
     # a line that was not written to its end, as after a power failure
     with open(tmp_path / "rows.jsonl", "a", encoding="utf-8") as rows:
-        rows.write('{"of": "')
+        rows.write('{"of":"')
     whole = lariat.sweep(SCENE, GRID, out=tmp_path, progress=False)
     done = {tuple(s.items()): row for s, row in zip(first.settings, first.rows)}
     for settings, row in zip(whole.settings, whole.rows):

@@ -397,7 +397,7 @@ class Cable:
         """Changes what the reel at an end does from now on. Raises ReelPlaceError, ReelMethodError, InvalidValueError, BuilderError."""
 
     def set_reel_length(self, at: Place, length: float, rate: float) -> None:
-        """Lets the reel at an end come to a length of cable (m) that is out, with at most a rate (m/s), and stop there."""
+        """Lets the reel at an end come to a length of cable (m) that is out, with at most a rate (m/s), and stop there. Raises as ``set_reel``."""
 
     def set_reel_rate(self, at: Place, rate: float) -> None:
         """Changes the rate of the reel at an end in m/s: positive pays out. Raises as ``set_reel``."""

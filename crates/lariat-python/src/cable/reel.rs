@@ -40,7 +40,8 @@ impl Cable {
         self.change(py, |cable| cable.set_reel_rate(at.0, rate))
     }
 
-    /// Lets the reel at an end come to a length of cable in m that is out, with at most a rate in m/s, and stop there.
+    /// Lets the reel at an end come to a length of cable (m) that is out, with at most a rate
+    /// (m/s), and stop there. Raises as ``set_reel``.
     fn set_reel_length(&self, py: Python<'_>, at: Place, length: f64, rate: f64) -> PyResult<()> {
         self.change(py, |cable| cable.set_reel_length(at.0, length, rate))
     }
