@@ -19,9 +19,9 @@ SCENE = HERE.parents[1] / "assets" / "scenes" / "falling_pendulum.toml"
 
 
 def import_time() -> tuple[float, float]:
-    """Shortest wall time in ms of ``import numpy`` and of ``import lariat`` after it, of ten processes."""
+    """Shortest wall time in ms of ``import numpy`` and of ``import lariat_cables`` after it, of ten processes."""
     code = (
-        "import time; a = time.perf_counter(); import numpy; b = time.perf_counter(); import lariat; "
+        "import time; a = time.perf_counter(); import numpy; b = time.perf_counter(); import lariat_cables; "
         "print(b - a, time.perf_counter() - b)"
     )
     runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split() for _ in range(10)]
@@ -31,7 +31,7 @@ def import_time() -> tuple[float, float]:
 
 def step_overhead() -> tuple[float, float, float]:
     """Wall time in us of a step called from Python, of one in a loop of Rust, and their difference: smallest of 40 pairs of 1000 steps."""
-    import lariat
+    import lariat_cables as lariat
 
     section = lariat.Section.square(0.01, 1e8, 4000.0)
     python, rust = [], []
@@ -61,7 +61,7 @@ def sweep_times() -> list[tuple[str, float]]:
     import numpy as np
     from distributed import Client, LocalCluster
 
-    import lariat
+    import lariat_cables as lariat
 
     grid = {"cable.0.elements": [10, 12, 14, 16], "cable.0.youngs_modulus": list(np.geomspace(1e7, 1e8, 50)), "duration": [2.0]}
     times, sweeps = [], []
@@ -78,7 +78,7 @@ def sweep_times() -> list[tuple[str, float]]:
         timed(f"{threads} thread{'s' * (threads > 1)}", threads=threads)
     for workers in (1, 2):
         with LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None) as cluster, Client(cluster) as client:
-            # the workers import lariat
+            # the workers import lariat_cables
             lariat.sweep(SCENE, {"duration": [0.01] * workers}, client=client, progress=False)
             timed(f"Dask, {workers} worker{'s' * (workers > 1)}", client=client)
     assert all(sweep.same_results(sweeps[0]) for sweep in sweeps)
@@ -105,7 +105,7 @@ def main() -> None:
     times = sweep_times()
     one = {name: wall for name, wall in times}
     lines = [
-        f"- The wheel has {arguments.wheel.stat().st_size / 1e6:.1f} MB. `import lariat` takes {lariat:.0f} ms after `import numpy`, which takes {numpy:.0f} ms.",
+        f"- The wheel has {arguments.wheel.stat().st_size / 1e6:.1f} MB. `import lariat_cables` takes {lariat:.0f} ms after `import numpy`, which takes {numpy:.0f} ms.",
         f"- A call of `step` costs {overhead:.2f} us more than a step in Rust ({called:.2f} us beside {looped:.2f} us, one element, one step of Verlet).",
         "",
         "A crate of 50 kg in MuJoCo on a cable, released from horizontal, against an independent monolithic code "

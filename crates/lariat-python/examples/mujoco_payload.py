@@ -21,8 +21,8 @@ import time
 import mujoco  # type: ignore[import-untyped, unused-ignore]
 import numpy as np
 
-import lariat
-from lariat.types import Fidelity
+import lariat_cables as lariat
+from lariat_cables.types import Fidelity
 
 REFERENCE = {0.5: (1.70292, -1.21801), 1.0: (-0.82138, -1.91419)}
 SIDE, YOUNGS_MODULUS, DENSITY, LENGTH = 0.01, 1e9, 4000.0, 2.0

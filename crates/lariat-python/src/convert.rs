@@ -67,14 +67,46 @@ impl Array {
     }
 }
 
-/// A point of a cable: "start", "end", a node (int) or an arc length (float).
+/// A point of a cable: "start", "end", a `lariat.Node`, or an arc length in m (float).
+///
+/// An integer says neither whether it counts nodes nor whether it counts metres, and is refused; 0 is
+/// the start in both.
 #[derive(Clone, Copy, Debug)]
 pub struct Place(pub At);
+
+const EXPECTED: &str = "expected \"start\", \"end\", an arc length in m (float) or a lariat.Node";
+
+/// What a number is, as a place.
+enum Counts {
+    Node,
+    Integer,
+    Metres,
+    Nothing,
+}
+
+/// Returns what an object counts: NumPy's numbers by their dtype, others by their type.
+fn counts(object: Borrowed<'_, '_, PyAny>) -> PyResult<Counts> {
+    if object.is_instance_of::<PyBool>() || object.len().is_ok() {
+        return Ok(Counts::Nothing);
+    }
+    if let Ok(dtype) = object.getattr("dtype") {
+        let kind: String = dtype.getattr("kind")?.extract()?;
+        return Ok(match kind.as_str() {
+            "f" => Counts::Metres,
+            "i" | "u" => Counts::Integer,
+            _ => Counts::Nothing,
+        });
+    }
+    if !object.hasattr("__index__")? {
+        return Ok(if object.hasattr("__float__")? { Counts::Metres } else { Counts::Nothing });
+    }
+    let node = object.is_instance(&object.py().import("lariat_cables.node")?.getattr("Node")?)?;
+    Ok(if node { Counts::Node } else { Counts::Integer })
+}
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Place {
     type Error = PyErr;
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        const EXPECTED: &str = "expected \"start\", \"end\", a node number (int) or an arc length in m (float)";
         if let Ok(text) = object.extract::<String>() {
             return match text.as_str() {
                 "start" => Ok(Place(At::Start)),
@@ -82,17 +114,23 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Place {
                 _ => Err(raise(Raise::new("UnknownPlaceError", format!("{EXPECTED}, got {text:?}")))),
             };
         }
-        if object.is_instance_of::<PyBool>() {
-            return Err(PyTypeError::new_err(format!("{EXPECTED}, got a bool")));
-        }
-        if object.hasattr("__index__")? && !object.hasattr("__len__")? {
-            return Ok(Place(At::Node(object.extract()?)));
-        }
-        match object.extract::<f64>() {
-            Ok(s) => Ok(Place(At::ArcLength(s))),
-            Err(_) => Err(PyTypeError::new_err(EXPECTED)),
+        match counts(object)? {
+            Counts::Node => Ok(Place(At::Node(object.extract()?))),
+            Counts::Metres => Ok(Place(At::ArcLength(object.extract()?))),
+            Counts::Integer if object.eq(0)? => Ok(Place(At::Start)),
+            Counts::Integer => {
+                let k = object.str()?;
+                let problem = format!("{k} as a point of a cable is a node or m: write lariat.Node({k}) or {k}.0");
+                Err(raise(Raise::new("AmbiguousPlaceError", problem)))
+            }
+            Counts::Nothing => Err(PyTypeError::new_err(format!("{EXPECTED}, got {}", object.get_type().name()?))),
         }
     }
+}
+
+/// Returns the `lariat.Node` of a number.
+pub fn node(py: Python<'_>, node: usize) -> PyResult<Bound<'_, PyAny>> {
+    py.import("lariat_cables.node")?.getattr("Node")?.call1((node,))
 }
 
 /// One place, or several.
@@ -102,7 +140,7 @@ pub struct Places(pub Vec<At>);
 impl<'a, 'py> FromPyObject<'a, 'py> for Places {
     type Error = PyErr;
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if object.is_instance_of::<PyString>() || !object.hasattr("__iter__")? {
+        if object.is_instance_of::<PyString>() || object.try_iter().is_err() {
             return Ok(Places(vec![Place::extract(object)?.0]));
         }
         let places = object.try_iter()?.map(|item| Ok(item?.extract::<Place>()?.0));
@@ -132,7 +170,7 @@ pub fn result<'py>(
     class: &str,
     values: impl pyo3::call::PyCallArgs<'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    py.import("lariat.results")?.getattr(class)?.call1(values)
+    py.import("lariat_cables.results")?.getattr(class)?.call1(values)
 }
 
 /// Returns dicts, sequences, arrays, paths, numbers and texts as plain data.

@@ -78,7 +78,7 @@ impl Raise {
     }
 
     fn instance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let errors = py.import("lariat.errors")?;
+        let errors = py.import("lariat_cables.errors")?;
         let class = match errors.getattr(self.class.as_str()) {
             Ok(class) => class,
             Err(_) => errors.getattr("Error")?,

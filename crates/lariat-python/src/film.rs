@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use std::sync::{Mutex, MutexGuard};
 
 /// Records frames, and gives the page.
-#[pyclass(frozen, module = "lariat._lariat")]
+#[pyclass(frozen, module = "lariat_cables._lariat")]
 pub struct Film(Mutex<view::Film>);
 
 impl Film {

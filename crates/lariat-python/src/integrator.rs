@@ -7,18 +7,23 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
 /// A time integration method and how its steps are chosen.
-#[pyclass(frozen, module = "lariat")]
+///
+/// A method by name (see ``integrators()``), and exactly one of: ``tolerance``, the error of
+/// position in m per host step (of the errors that ``norm`` selects); ``substeps`` per host step;
+/// ``max_step`` in s; ``adaptive``, 1, 2, 4 or 8 equal steps in 1/60 s of "discrete-gradient" (1
+/// and 2 keep this error in m in that time, in proportion for cables shorter than 1 m); ``stable``,
+/// a share in (0, 1] of the stability limit of an explicit method. ``dissipation`` of
+/// "discrete-gradient", 0 to 1/16: a motion of angular frequency w loses the share a (h w)^3/2 of
+/// its amplitude per radian in steps of h; default 1/16, with a tolerance 1/256.
+///
+/// Raises UnknownIntegratorError, StepControlError, NoErrorEstimateError, NoErrorNormError,
+/// NoStabilityLimitError, InvalidValueError.
+#[pyclass(frozen, module = "lariat_cables")]
 #[derive(Clone)]
 pub struct Integrator(pub ancf::Integrator);
 
 #[pymethods]
 impl Integrator {
-    /// A method by its name, with one of: `tolerance` in m per host step (of the errors that `norm` selects: "every", "motion" or
-    /// "bodies"), `substeps` per host step, `max_step` in s, `adaptive` in m (1, 2, 4 or 8 equal steps in 1/60 s of "discrete-gradient", with
-    /// this error kept by 1 and 2), or `stable`, a share of the stability limit of an explicit method.
-    /// `dissipation` of "discrete-gradient", 0 to 1/16: a motion of angular frequency w loses the
-    /// share a (h w)^3/2 of its amplitude per radian in steps of h. Default 1/16, with a tolerance
-    /// 1/256.
     #[new]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     #[pyo3(signature = (method="esdirk4", *, tolerance=None, norm=None, substeps=None, max_step=None, adaptive=None, stable=None, dissipation=None))]
@@ -134,7 +139,7 @@ pub fn rope_kinds() -> Vec<&'static str> {
     RopeKind::ALL.map(RopeKind::name).to_vec()
 }
 
-/// Returns the number of elements that a fidelity recommends.
+/// Returns the number of elements that a fidelity recommends. Raises UnknownFidelityError.
 #[pyfunction]
 #[pyo3(signature = (fidelity="engineering"))]
 pub fn recommended_elements(fidelity: &str) -> PyResult<usize> {

@@ -1,4 +1,4 @@
-//! Lariat for Python: the extension module `lariat._lariat` of the wheel `lariat-cables`.
+//! Lariat for Python: the extension module `lariat_cables._lariat` of the wheel `lariat-cables`.
 //!
 //! | file | what it holds |
 //! |---|---|
@@ -10,7 +10,7 @@
 //! | `film` | the pages of what a program steps itself |
 //! | `convert`, `error`, `shared`, `saved` | arguments, exceptions, objects that several threads use, objects as bytes |
 //!
-//! What needs no Rust (exceptions, results as named tuples, effects, tables) is in `python/lariat`.
+//! What needs no Rust (exceptions, results as named tuples, effects, tables) is in `python/lariat_cables`.
 //!
 //! No method holds a lock while it touches Python, and every method that computes releases the interpreter: two threads that use one
 //! object wait for each other, and cannot deadlock.
@@ -31,7 +31,7 @@ mod world;
 #[pyo3::pymodule]
 mod _lariat {
     #[pymodule_export]
-    use crate::cable::{Cable, step_all, step_together};
+    use crate::cable::{Cable, states, step_all, step_together};
     #[pymodule_export]
     use crate::cosimulation::CoSimulation;
     #[pymodule_export]
@@ -40,8 +40,8 @@ mod _lariat {
     use crate::integrator::{Integrator, integrators, recommended_elements, rope_kinds};
     #[pymodule_export]
     use crate::scene::{
-        Recorded, import_mjcf, run_command, run_scene, save_file, save_files, scene_keys, scene_rules, sweep_append,
-        sweep_check, sweep_done, sweep_local, sweep_row, sweep_table, to_toml,
+        Recorded, Stop, import_mjcf, run_command, run_scene, save_file, save_files, scene_keys, scene_rules,
+        sweep_append, sweep_check, sweep_done, sweep_local, sweep_row, sweep_run, sweep_table, to_toml,
     };
     #[pymodule_export]
     use crate::section::Section;

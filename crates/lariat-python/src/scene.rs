@@ -26,7 +26,7 @@ const TELL_EVERY: Duration = Duration::from_millis(100);
 type Run<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, Option<Bound<'py, PyAny>>, Recorded);
 
 /// A run that is kept, for its page and its motion.
-#[pyclass(frozen, module = "lariat._lariat")]
+#[pyclass(frozen, module = "lariat_cables._lariat")]
 pub struct Recorded(Mutex<Recording>);
 
 #[pymethods]
@@ -170,7 +170,11 @@ pub fn run_scene<'py>(
     if let Some(error) = teller.failed {
         return Err(error);
     }
-    let mut recording: Recording = recording.map_err(raise::<Error>)?;
+    kept(py, recording.map_err(raise::<Error>)?)
+}
+
+/// Returns what a run leaves, as Python's objects.
+fn kept(py: Python<'_>, mut recording: Recording) -> PyResult<Run<'_>> {
     let summary = object(py, &serde_json::to_value(&recording.summary).unwrap_or_default())?;
     let probes = PyDict::new(py);
     for probe in &mut recording.probes {
@@ -189,6 +193,37 @@ fn line(row: &Row) -> String {
 #[pyfunction]
 pub fn sweep_row(py: Python<'_>, file: &str, text: &str, settings: Vec<String>) -> String {
     py.detach(|| line(&Source { file, text }.row(&settings)))
+}
+
+/// Ends the runs that were given it, after their present host step.
+#[pyclass(frozen, module = "lariat_cables._lariat")]
+#[derive(Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+#[pymethods]
+impl Stop {
+    #[new]
+    fn new() -> Self {
+        Stop::default()
+    }
+
+    /// Ends the runs.
+    fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Runs a scene with overrides. Returns its row, as JSON, and what the run left, unless the scene was refused.
+#[pyfunction]
+pub fn sweep_run<'py>(
+    py: Python<'py>,
+    file: &str,
+    text: &str,
+    settings: Vec<String>,
+    stop: &Stop,
+) -> PyResult<(String, Option<Run<'py>>)> {
+    let (row, recording) = py.detach(|| Source { file, text }.run(&settings, &stop.0));
+    Ok((line(&row), recording.map(|recording| kept(py, recording)).transpose()?))
 }
 
 /// Returns the rows of a folder that are done, as JSON; None for the others.

@@ -6,7 +6,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 /// Axial stiffness, bending stiffness and mass per length of a cable.
-#[pyclass(frozen, module = "lariat")]
+///
+/// Measured stiffness: EA in N (> 0), EI in N m^2 (>= 0), mass per unstretched length in kg/m (>
+/// 0).
+///
+/// ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy. Raises
+/// InvalidValueError.
+#[pyclass(frozen, module = "lariat_cables")]
 #[derive(Clone)]
 pub struct Section(pub ancf::Section);
 
@@ -16,8 +22,6 @@ fn made(section: Result<ancf::Section, ancf::Error>) -> PyResult<Section> {
 
 #[pymethods]
 impl Section {
-    /// Measured stiffness: EA in N, EI in N m^2, mass per unstretched length in kg/m; optionally the diameter in m (for drag and drawing)
-    /// and the area in m^2 inside its outline (for buoyancy).
     #[new]
     #[pyo3(signature = (axial_stiffness, bending_stiffness, mass_per_length, *, diameter=None, outer_area=None))]
     fn new(
@@ -37,25 +41,26 @@ impl Section {
         Ok(Section(ancf::Section { diameter, outer_area, ..section }))
     }
 
-    /// A solid round section: diameter in m, Young's modulus in Pa, density in kg/m^3.
+    /// A solid round section: m, Pa, kg/m^3. Raises InvalidValueError.
     #[staticmethod]
     fn round(diameter: f64, youngs_modulus: f64, density: f64) -> PyResult<Self> {
         made(ancf::Section::round(diameter, youngs_modulus, density))
     }
 
-    /// A solid square section: side in m, Young's modulus in Pa, density in kg/m^3.
+    /// A solid square section: m, Pa, kg/m^3. Raises InvalidValueError.
     #[staticmethod]
     fn square(side: f64, youngs_modulus: f64, density: f64) -> PyResult<Self> {
         made(ancf::Section::square(side, youngs_modulus, density))
     }
 
-    /// A tube: outer and inner diameter in m, Young's modulus in Pa, density in kg/m^3.
+    /// A tube: outer and inner diameter in m, Pa, kg/m^3. Raises InvalidValueError.
     #[staticmethod]
     fn tube(outer: f64, inner: f64, youngs_modulus: f64, density: f64) -> PyResult<Self> {
         made(ancf::Section::tube(outer, inner, youngs_modulus, density))
     }
 
     /// A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter in m.
+    /// Raises InvalidValueError.
     #[staticmethod]
     fn wire_rope(diameter: f64) -> PyResult<Self> {
         made(ancf::Section::wire_rope(diameter))
@@ -105,7 +110,7 @@ impl Section {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let s = &slf.get().0;
         let numbers = (s.axial_stiffness, s.bending_stiffness, s.mass_per_length, s.diameter, s.outer_area);
-        let restore = slf.py().import("lariat.results")?.getattr("section")?;
+        let restore = slf.py().import("lariat_cables.results")?.getattr("section")?;
         Ok((restore, numbers.into_pyobject(slf.py())?))
     }
 }

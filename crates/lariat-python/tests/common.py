@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import lariat
+import lariat_cables as lariat
 
 SCENES = Path(__file__).parents[3] / "assets" / "scenes"
 

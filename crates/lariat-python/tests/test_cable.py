@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from common import pendulum
 
-import lariat
-from lariat import errors
-from lariat.types import Fidelity
+import lariat_cables as lariat
+from lariat_cables import errors
+from lariat_cables.types import Fidelity
 
 
 def test_a_slack_cable_hangs_in_the_catenary() -> None:
@@ -123,13 +123,38 @@ def test_supports_and_loads_change_between_steps() -> None:
     cable.step(1 / 60)
 
 
-def test_step_all_steps_each_as_alone() -> None:
-    fleet = [pendulum(elements=n) for n in (3, 4, 5)]
+def test_the_tension_in_water_is_the_effective_tension() -> None:
+    """A chain that hangs free in water (docs/words.md): 0 N at its foot, (m - rho A) g L at its top; the tension of the wall would be
+    -rho g L A at the foot. Source: weight less buoyancy of what hangs below."""
+    mass, area, length, water = 5.6, 7.1e-4, 50.0, 1025.0
+    section = lariat.Section(2e7, 0.0, mass, outer_area=area)
+    chain = lariat.Cable([[0, 0, 0], [0, -length, 0]], section, elements=10, fix="start", effects=lariat.Buoyancy(water))
+    chain.equilibrium()
+    weight = (mass - water * area) * 9.81 * length
+    assert chain.sample("end").tension == pytest.approx(0.0, abs=1e-6 * weight)
+    assert chain.sample("start").tension == pytest.approx(weight, rel=1e-4)
+
+
+def test_step_all_steps_each_as_alone_and_returns_arrays_of_all() -> None:
+    fleet = [pendulum(elements=n) for n in (3, 5, 4)]
     alone = [cable.copy() for cable in fleet]
-    lariat.step_all(fleet, 0.1)
+    stepped = lariat.step_all(fleet, 0.05, steps=2)
     for cable in alone:
-        cable.step(0.1)
+        cable.step(0.05, steps=2)
     assert [c.to_bytes() for c in fleet] == [c.to_bytes() for c in alone]
+    assert stepped.coordinates.shape == stepped.rates.shape == (3, 6, 6) and stepped.positions.shape == (3, 6, 3)
+    assert stepped.nodes.tolist() == [4, 6, 5] and stepped.time == pytest.approx([0.1] * 3)
+    for i, cable in enumerate(alone):
+        n = cable.nodes
+        assert np.array_equal(stepped.coordinates[i, :n], cable.coordinates) and np.array_equal(stepped.rates[i, :n], cable.rates)
+        assert np.array_equal(stepped.slopes[i, :n], cable.slopes) and np.array_equal(stepped.velocities[i, :n], cable.velocities)
+        assert np.isnan(stepped.coordinates[i, n:]).all() and np.isnan(stepped.rates[i, n:]).all()
+    world = lariat.World()
+    inside = world.add_cable(fleet[0])
+    assert np.array_equal(lariat.states([inside, fleet[1]]).coordinates, stepped.coordinates[:2], equal_nan=True)
+    assert lariat.states([]).coordinates.shape == (0, 0, 6)
+    with pytest.raises(errors.InWorldError):
+        lariat.step_all([inside], 0.1)
     with pytest.raises(errors.DuplicateCableError):
         lariat.step_all([fleet[0], fleet[0]], 0.1)
 

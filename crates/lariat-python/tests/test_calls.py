@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import lariat
+import lariat_cables as lariat
 
 SEQUENCES = 1000
 CALLS = 15
@@ -43,7 +43,7 @@ def array(r: random.Random) -> Any:
 
 
 def place(r: random.Random) -> Any:
-    return r.choice(["start", "end", 0, 1, 4, -1, 99, 0.0, 1.0, 0.333, 5.0, float("nan"), None, "middle", 2**70, [], True])
+    return r.choice(["start", "end", 0, 1, 4, -1, 99, lariat.Node(1), lariat.Node(4), lariat.Node(99), 0.0, 1.0, 0.333, 5.0, float("nan"), None, "middle", 2**70, [], True])
 
 
 def effects(r: random.Random) -> Any:
@@ -144,7 +144,8 @@ def call_cable(r: random.Random, c: lariat.Cable) -> Any:
         lambda: c.redefine(rule=r.choice([None, "mean-T1"]), effects=effects(r)),
         lambda: c.restore(bytes_of(r, c.snapshot())),
         lambda: lariat.Cable.from_bytes(bytes_of(r, c.to_bytes())).step(1e-3),
-        lambda: lariat.step_all(r.choice([[c], [c, c], [], [None], None]), 1e-3),
+        lambda: lariat.step_all(r.choice([[c], [c, c], [], [None], None]), 1e-3, steps=r.choice([0, 1, 2, -1])),
+        lambda: lariat.states(r.choice([[c], [c, c], [], [None], None])),
         lambda: lariat.step_together(r.choice([[c], [c, c], [c, c.copy()], [], [None]]), number(r), steps=r.choice([0, 1, 2, -1, None])),
         lambda: lariat.Integrator(r.choice(["esdirk4", "verlet", "x", "generalised-alpha-7"]), tolerance=number(r), substeps=r.choice([None, 3, 0, -1])),
     ]  # fmt: skip
@@ -238,7 +239,7 @@ def call_world(r: random.Random, w: lariat.World, things: dict[str, list[Any]]) 
         lambda: setattr(w, r.choice(["dt", "gravity"]), r.choice([number(r), array(r), 1 / 60])),
         lambda: setattr(w.rigid_bodies[body()], r.choice(["translation", "linvel", "angvel", "rotation"]), array(r)),
         lambda: w.rigid_bodies[body()].apply_impulse(array(r)),
-        lambda: lariat.World.restore(bytes_of(r, w.snapshot())).step(),
+        lambda: (w.restore(bytes_of(r, w.snapshot())), lariat.World.from_bytes(bytes_of(r, w.to_bytes())).step()),
         lambda: w.add_sheave(rope(), place(r), rope(), place(r), inertia=number(r), friction=number(r), turns=r.choice([0.0, number(r)])),
         lambda: w.add_sheave(rope(), place(r), rope(), place(r)),
         lambda: (w.sheave(r.choice([0, 1, -1, None])), w.remove_sheave(r.choice([0, 1, 99]))),

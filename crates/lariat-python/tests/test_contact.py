@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import lariat
-from lariat import Collider, Contact, Obstacle, RigidBody, errors
+import lariat_cables as lariat
+from lariat_cables import Collider, Contact, Obstacle, RigidBody, errors
 
 SECTION = lariat.Section(2e4, 1e-3, 0.1, diameter=0.01)
 

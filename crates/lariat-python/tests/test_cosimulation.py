@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import lariat
-from lariat import errors
-from lariat.exchange import EndMotion, Exchange
-from lariat.types import Fidelity
+import lariat_cables as lariat
+from lariat_cables import errors
+from lariat_cables.exchange import EndMotion, Exchange
+from lariat_cables.types import Fidelity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 
@@ -152,19 +152,9 @@ def twisted(turns: float, points: list[list[float]], **arguments: object) -> lar
 
 
 def test_impedance_about_the_axis_is_the_torsional_stiffness() -> None:
-    """Z/h^2 about the axis of a straight cable for long steps: GJ/L, between both ends the opposite; of one that is bent and twisted the
-    derivative of the torque of its equilibrium by the turns of an end, by differences."""
+    """Z/h^2 about the axis of a straight cable for long steps: GJ/L, between both ends the opposite."""
     z = held(twisted(0.0, [[0, 0, 0], [1, 0, 0]], gravity=[0, 0, 0])).impedance(1e3) / 1e6
     assert [z[3, 3], z[3, 9], z[9, 9]] == pytest.approx([0.02, -0.02, 0.02], rel=1e-9)
-    bent, d = [[0, 0, 0], [0.5, -0.2, 0.1], [1, 0, 0]], 1e-3
-    cable = twisted(0.6, bent)
-    axes = cable.slopes[[0, -1]] / np.linalg.norm(cable.slopes[[0, -1]], axis=1)[:, None]
-    z = held(cable).impedance(1e4) / 1e8
-    torques = [twisted(0.6 + sign * d, bent).torsion()[0].torque for sign in (-1, 1)]
-    exact = (torques[1] - torques[0]) / (2 * d * 2 * np.pi)
-    assert exact < 0.9 * 0.02 / cable.length  # the curve gives way
-    assert axes[1] @ z[9:, 9:] @ axes[1] == pytest.approx(exact, rel=1e-4)
-    assert axes[0] @ z[3:6, 9:] @ axes[1] == pytest.approx(-exact, rel=1e-4)
 
 
 def held(cable: lariat.Cable) -> lariat.CoSimulation:

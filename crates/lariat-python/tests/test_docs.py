@@ -1,13 +1,14 @@
 """The code of docs/python.md runs as it stands, block after block."""
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 from unittest import mock
 
 import pytest
 
-import lariat
+import lariat_cables as lariat
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "python.md"
@@ -39,3 +40,19 @@ def test_every_block_of_the_page_runs(tmp_path, monkeypatch):
     assert names["done"].forces.force[0][1] > 0.0
     assert (tmp_path / "out" / "payload" / "view.html").exists()
     assert issubclass(lariat.errors.StepFailedError, lariat.Error)
+
+
+def test_the_blocks_of_the_page_are_strictly_typed(tmp_path):
+    """Each block as a user's file, behind the imports of the page and the names that earlier blocks leave."""
+    names = "import math\nfrom typing import Any\nimport numpy as np\nimport lariat_cables as lariat\n"
+    names += "section: lariat.Section\nrope: lariat.Cable\nworld: lariat.World\nhook: int\nscene: Any\n"
+    files = []
+    for number, code in enumerate(blocks()):
+        files.append(tmp_path / f"block_{number + 1}.py")
+        files[-1].write_text((names if number else "") + code)
+    # a page binds a name anew, and its functions are short
+    looser = ["no-redef", "no-untyped-def", "no-untyped-call", "assignment"]
+    arguments = ["--strict", "--ignore-missing-imports", *(f"--disable-error-code={code}" for code in looser)]
+    command = [sys.executable, "-m", "mypy", *arguments, *map(str, files)]
+    found = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert found.returncode == 0, found.stdout + found.stderr

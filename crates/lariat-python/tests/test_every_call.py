@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from test_calls import array, effects, number, obstacle, place, reel
 
-import lariat
-from lariat import _lariat, bodies, contact, effects as effect_classes, errors, joints, results, scenes
+import lariat_cables as lariat
+from lariat_cables import _lariat, bodies, contact, effects as effect_classes, errors, joints, results, scenes
 
 ROUNDS = 12
 """Calls of each method and function with arguments at random, on each of the objects."""

@@ -9,10 +9,10 @@ import pickle
 import numpy as np
 import pytest
 
-import lariat
-from lariat import errors
-from lariat.exchange import MOST_TRIALS, EndMotion, Exchange
-from lariat.types import Fidelity
+import lariat_cables as lariat
+from lariat_cables import errors
+from lariat_cables.exchange import MOST_TRIALS, EndMotion, Exchange
+from lariat_cables.types import Fidelity
 
 EA = 2e4
 GRAVITY = np.array([0.0, -9.81, 0.0])
@@ -216,7 +216,7 @@ def test_a_body_of_mujoco_is_held(integrator: str, mass: float) -> None:
     """A body of MuJoCo heavier and much lighter than the cable, thrown aside: with RK4 it keeps its energy within 1 % over 1 s, with Euler it
     loses some and the first step says so."""
     mujoco = pytest.importorskip("mujoco")
-    from lariat.with_mujoco import MujocoExchange
+    from lariat_cables.with_mujoco import MujocoExchange
 
     model = mujoco.MjModel.from_xml_string(
         f'<mujoco><option timestep="0.002" gravity="0 -9.81 0" integrator="{integrator}"/><worldbody><body name="b" pos="0 -2.05 0">'

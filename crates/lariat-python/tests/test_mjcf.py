@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-import lariat
-from lariat import errors
+import lariat_cables as lariat
+from lariat_cables import errors
 
 if sys.version_info >= (3, 11):
     import tomllib

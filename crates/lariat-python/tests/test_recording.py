@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import lariat
+import lariat_cables as lariat
 
 SECTION = lariat.Section(1e5, 0.1, 0.1)
 

@@ -6,8 +6,8 @@ import pickle
 
 import pytest
 
-import lariat
-from lariat import Reel, errors
+import lariat_cables as lariat
+from lariat_cables import Reel, errors
 
 SECTION = lariat.Section(2e4, 1e-3, 0.2, diameter=0.01)
 LOAD = 50.0

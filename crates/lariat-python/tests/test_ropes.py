@@ -7,8 +7,8 @@ import pickle
 import numpy as np
 import pytest
 
-import lariat
-from lariat import Collider, RigidBody, errors
+import lariat_cables as lariat
+from lariat_cables import Collider, RigidBody, errors
 
 SECTION = lariat.Section(1e4, 0.05, 0.2, diameter=0.01)
 

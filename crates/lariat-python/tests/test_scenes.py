@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from common import SCENES
 
-import lariat
-from lariat import errors
+import lariat_cables as lariat
+from lariat_cables import errors
 
 ROPE = {
     "duration": 0.1,
@@ -145,7 +145,7 @@ def test_the_wheel_has_the_command(tmp_path: Path) -> None:
     """It writes the files of a run, and ends with the exit codes of the command."""
     scene = tmp_path / "rope.toml"
     scene.write_text(lariat._lariat.to_toml(ROPE), encoding="utf-8")  # type: ignore[arg-type]
-    command = [sys.executable, "-m", "lariat"]
+    command = [sys.executable, "-m", "lariat_cables"]
     done = subprocess.run([*command, "run", scene, "--out", tmp_path / "out"], capture_output=True, text=True)
     assert done.returncode == 0 and (tmp_path / "out/view.html").is_file() and (tmp_path / "out/probes/tip.csv").is_file()
     wrong = subprocess.run([*command, "run", tmp_path / "none.toml", "--out", tmp_path / "none"], capture_output=True, text=True)
@@ -196,7 +196,7 @@ def test_a_loaded_scene_is_stepped_and_changed_by_its_names() -> None:
     before = crate.linvel
     world.step()
     assert crate.linvel - before == pytest.approx([0, -9.81 * world.dt, 0], abs=1e-4)
-    again = lariat.World.restore(world.snapshot())
+    again = lariat.World.from_bytes(world.to_bytes())
     again.step()
     world.step()
     assert (again.body("crate").translation == crate.translation).all()

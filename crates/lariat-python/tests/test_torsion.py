@@ -7,8 +7,8 @@ import pickle
 
 import pytest
 
-import lariat
-from lariat import Motor, MotorCourse, Reel, Torsion, errors
+import lariat_cables as lariat
+from lariat_cables import Motor, MotorCourse, Reel, Torsion, errors
 
 SECTION = lariat.Section(1e4, 0.03, 0.1, diameter=0.01)
 STIFFNESS = 0.02

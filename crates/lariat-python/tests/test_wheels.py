@@ -7,8 +7,8 @@ import pickle
 
 import pytest
 
-import lariat
-from lariat import Collider, FixedJoint, RevoluteJoint, RigidBody, errors
+import lariat_cables as lariat
+from lariat_cables import Collider, FixedJoint, RevoluteJoint, RigidBody, errors
 
 G = 9.80665
 

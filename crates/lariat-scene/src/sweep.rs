@@ -8,7 +8,7 @@
 
 use crate::error::Error;
 use crate::folder::Folder;
-use crate::run::{self, Options, ProbeRecord, Summary};
+use crate::run::{self, Options, ProbeRecord, Recording, Summary};
 use crate::scene::{Purpose, Scene};
 use lariat_ancf::seal::Checksum;
 use rayon::prelude::*;
@@ -97,8 +97,8 @@ impl Source<'_> {
         self.row_until(settings, &Arc::default()).0
     }
 
-    /// Runs the scene with overrides until it ends, or is stopped; returns whether it ended.
-    fn row_until(&self, settings: &[String], stop: &Arc<AtomicBool>) -> (Row, bool) {
+    /// Runs the scene with overrides until it ends, or is stopped; returns its row, and the run unless the scene was refused.
+    pub fn run(&self, settings: &[String], stop: &Arc<AtomicBool>) -> (Row, Option<Recording>) {
         let mut row = Row {
             of: self.checksum(),
             settings: settings.to_vec(),
@@ -109,17 +109,25 @@ impl Source<'_> {
         let recording = Scene::parse(self.file, self.text, settings, Purpose::Run).and_then(|scene| {
             run::collect(&scene, Purpose::Run, &mut Options { stop: stop.clone(), ..Options::default() })
         });
-        let mut ended = true;
         match recording {
-            Err(error) => row.error = Some(error.to_string()),
+            Err(error) => {
+                row.error = Some(error.to_string());
+                (row, None)
+            }
             Ok(recording) => {
                 row.results = results(&recording.summary, &recording.probes);
-                row.warnings = recording.summary.told;
-                ended = !matches!(recording.failed, Some(Error::Interrupted { .. }));
-                row.error = recording.failed.map(|error| error.to_string());
+                row.warnings.clone_from(&recording.summary.told);
+                row.error = recording.failed.as_ref().map(ToString::to_string);
+                (row, Some(recording))
             }
         }
-        (row, ended)
+    }
+
+    /// Runs the scene with overrides until it ends, or is stopped; returns whether it ended.
+    fn row_until(&self, settings: &[String], stop: &Arc<AtomicBool>) -> (Row, bool) {
+        let (row, recording) = self.run(settings, stop);
+        let interrupted = |recording: &Recording| matches!(recording.failed, Some(Error::Interrupted { .. }));
+        (row, !recording.as_ref().is_some_and(interrupted))
     }
 
     /// Checks that the scene accepts some of these settings.
@@ -267,22 +275,33 @@ fn are_rows(text: &str) -> bool {
     text.lines().all(|line| is_row(line) || line.starts_with(BEGIN) || BEGIN.starts_with(line))
 }
 
-/// Writes rows as one table, `table.csv`: settings, results, number of warnings, error. The folder must belong to nobody: drop
-/// the [`Store`] before.
+/// Writes rows as one table, `table.csv`: settings by key (empty where a row does not set it), results, number of warnings, error.
+/// The folder must belong to nobody: drop the [`Store`] before.
 ///
 /// # Errors
 /// As [`Store::open`].
 pub fn write_table(folder: &Path, rows: &[Row]) -> Result<PathBuf, Error> {
     let path = folder.join(TABLE);
-    let key = |setting: &String| setting.split_once('=').map_or("", |(key, _)| key).to_string();
-    let keys: Vec<String> = rows.first().map(|row| row.settings.iter().map(key).collect()).unwrap_or_default();
+    let parts = |setting: &String| {
+        let (key, value) = setting.split_once('=').unwrap_or((setting.as_str(), ""));
+        (key.to_string(), value.to_string())
+    };
+    // points of a list may set different keys
+    let mut keys: Vec<String> = Vec::new();
+    for (key, _) in rows.iter().flat_map(|row| row.settings.iter().map(parts)) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
     let names: std::collections::BTreeSet<&String> = rows.iter().flat_map(|row| row.results.keys()).collect();
     let write = || -> Result<String, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let own = ["warnings".to_string(), "error".to_string()];
         table.write_record(keys.iter().chain(names.iter().copied()).chain(&own))?;
         for row in rows {
-            let settings = row.settings.iter().map(|s| s.split_once('=').map_or("", |(_, value)| value).to_string());
+            let of: Vec<(String, String)> = row.settings.iter().map(parts).collect();
+            let value = |key: &String| of.iter().find(|(own, _)| own == key).map_or(String::new(), |(_, v)| v.clone());
+            let settings = keys.iter().map(value);
             let number =
                 |name: &&String| row.results.get(*name).copied().flatten().map_or(String::new(), |x| format!("{x:?}"));
             let own = [row.warnings.len().to_string(), row.error.clone().unwrap_or_default()];

@@ -1,7 +1,7 @@
 //! Changing a cable between steps.
 
 use super::{Cable, effects};
-use crate::convert::{Array, Place, Vector};
+use crate::convert::{Array, Place, Vector, node};
 use crate::error::{Raise, raise};
 use crate::integrator::Choice;
 use lariat_ancf::coupling::Coupling;
@@ -14,12 +14,14 @@ const SNAPSHOT: &str = concat!("lariat snapshot ", env!("CARGO_PKG_VERSION"), "\
 
 #[pymethods]
 impl Cable {
-    /// Holds the position of a node where it is.
+    /// Holds the position of a node where it is. Raises OutOfRangeError, NoNodeError.
     fn fix(&self, py: Python<'_>, at: Place) -> PyResult<()> {
         self.change(py, |cable| cable.fix(at.0))
     }
 
-    /// Holds the position of a node as it is, and its tangent in a direction: by default as it is, or as it was drawn.
+    /// Holds the position of a node as it is and its tangent along ``direction``, by default as it
+    /// is; at an end of a slack cable as it was laid, as drawn. Raises as ``fix``, NoTangentError,
+    /// and InvalidValueError for a direction of size zero.
     #[pyo3(signature = (at, direction=None))]
     fn clamp(&self, py: Python<'_>, at: Place, direction: Option<Vector>) -> PyResult<()> {
         self.change(py, |cable| match direction {
@@ -28,13 +30,15 @@ impl Cable {
         })
     }
 
-    /// Frees a node.
+    /// Frees a node. Raises as ``fix``.
     fn release(&self, py: Python<'_>, at: Place) -> PyResult<()> {
         self.change(py, |cable| cable.release(at.0))
     }
 
-    /// Prescribes the position of a node: the cubic from where it is, at its present velocity, to `position` (m) at `velocity` (m/s) a
-    /// time `duration` (s) later; then it is held there.
+    /// Prescribes the position of a node: the cubic from where it is, at its present velocity, to
+    /// ``position`` (m) at ``velocity`` (m/s; default 0) a time ``duration`` (s) later; then it is
+    /// held there. ``restore`` restores it. Raises OutOfRangeError, NoNodeError, ShapeError,
+    /// InvalidValueError.
     #[pyo3(signature = (at, position, duration, velocity=None))]
     fn prescribe(
         &self,
@@ -48,13 +52,14 @@ impl Cable {
         self.change(py, |cable| cable.prescribe(at.0, position.0, velocity, duration))
     }
 
-    /// Adds a force (N) and moment (N m) in world axes at an arc length (m), ramped over `ramp` s, times the factor of
-    /// `history`: rows of seconds from now and factor, linear between them, constant outside.
-    #[pyo3(signature = (s, force=None, *, moment=None, ramp=0.0, history=None))]
+    /// Adds a force (N) and moment (N m) in world axes at a point, ramped over ``ramp`` s, times
+    /// the factor of ``history``: rows of seconds from now and factor, linear between them,
+    /// constant outside. Raises OutOfRangeError, InvalidValueError.
+    #[pyo3(signature = (at, force=None, *, moment=None, ramp=0.0, history=None))]
     fn add_load(
         &self,
         py: Python<'_>,
-        s: f64,
+        at: Place,
         force: Option<Vector>,
         moment: Option<Vector>,
         ramp: f64,
@@ -62,7 +67,10 @@ impl Cable {
     ) -> PyResult<()> {
         let [force, moment] = [force, moment].map(|v| v.map_or(Vector3::zeros(), |v| v.0));
         let history = history.unwrap_or_default();
-        self.change(py, |cable| cable.add_load(PointLoad { moment, ramp, history, ..PointLoad::force(s, force) }))
+        self.change(py, |cable| {
+            let s = cable.arc_length(at.0)?;
+            cable.add_load(PointLoad { moment, ramp, history, ..PointLoad::force(s, force) })
+        })
     }
 
     /// Removes all point loads.
@@ -101,7 +109,9 @@ impl Cable {
         self.change(py, |cable| cable.set_rule(rule))
     }
 
-    /// Sets nodal coordinates and their rates, both of shape (nodes, 6).
+    /// Sets nodal coordinates and their rates, both of shape (nodes, 6). If coordinates change,
+    /// contacts are forgotten: friction begins anew, and the depth at which the cable is set gives
+    /// no force. ``restore`` keeps them. Raises ShapeError, InvalidValueError.
     fn set_state(&self, py: Python<'_>, coordinates: Array, rates: Array) -> PyResult<()> {
         let nodes = self.read(py, |cable| Ok(cable.nodes()))?;
         for given in [&coordinates, &rates] {
@@ -112,20 +122,23 @@ impl Cable {
         self.change(py, |cable| cable.set_coordinates(&coordinates.values, &rates.values))
     }
 
-    /// Sets the velocities of a rigid motion: `velocity` (m/s) of the start, `angular_velocity` (rad/s) about it.
+    /// Sets the velocities of a rigid motion: ``velocity`` (m/s) of the start, ``angular_velocity``
+    /// (rad/s) about it. Raises ShapeError, InvalidValueError.
     #[pyo3(signature = (velocity, angular_velocity=None))]
     fn set_rigid_motion(&self, py: Python<'_>, velocity: Vector, angular_velocity: Option<Vector>) -> PyResult<()> {
         let spin = angular_velocity.map_or(Vector3::zeros(), |v| v.0);
         self.change(py, |cable| cable.set_rigid_motion(velocity.0, spin))
     }
 
-    /// Returns the node at a point, and places one if there is none.
-    fn insert_node(&self, py: Python<'_>, at: Place) -> PyResult<usize> {
+    /// Returns the node at a point, and places one if there is none. Raises OutOfRangeError,
+    /// InWorldError.
+    fn insert_node<'py>(&self, py: Python<'py>, at: Place) -> PyResult<Bound<'py, PyAny>> {
         self.own("be divided")?;
-        self.change(py, |cable| cable.insert_node(at.0))
+        node(py, self.change(py, |cable| cable.insert_node(at.0))?)
     }
 
-    /// Samples a flow at the nodes: `velocities` in m/s of shape (nodes, 3), valid until the next call; needs drag.
+    /// Samples a flow at the nodes, in m/s, shape (nodes, 3): valid until the next call, on top of
+    /// that of the drag. Raises MissingForEffectError, WrongCountError.
     fn sample_flow(&self, py: Python<'_>, velocities: Array) -> PyResult<()> {
         let rows = velocities.vectors()?;
         self.change(py, |cable| {
@@ -138,14 +151,15 @@ impl Cable {
         })
     }
 
-    /// Returns the state as bytes, for `restore`.
+    /// Returns the state alone, for ``restore``.
     fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = self.read(py, |cable| Ok(rmp_serde::to_vec_named(cable.snapshot())))?;
         let bytes = bytes.map_err(|error| raise(Raise::new("FormatError", error.to_string())))?;
         Ok(PyBytes::new(py, &[SNAPSHOT.as_bytes(), &bytes].concat()))
     }
 
-    /// Restores a state of this cable; the run continues bitwise from there.
+    /// Restores a state of this cable; the run continues bitwise from there. Raises FormatError,
+    /// WrongCountError.
     fn restore(&self, py: Python<'_>, snapshot: Cow<'_, [u8]>) -> PyResult<()> {
         let wrong = |problem: String| raise(Raise::new("FormatError", format!("not a snapshot of a cable: {problem}")));
         let Some(body) = snapshot.strip_prefix(SNAPSHOT.as_bytes()) else {
@@ -155,7 +169,9 @@ impl Cable {
         self.change(py, |cable| cable.restore(snapshot))
     }
 
-    /// Replaces rule, effects and integrator together, where one needs the other.
+    /// Replaces rule, effects and integrator together, where one needs the other. Raises
+    /// UnknownRuleError, RankDeficientError, EffectsError, MissingForEffectError,
+    /// ExplicitDampingError; the cable is then as it was.
     #[pyo3(signature = (*, rule=None, effects=None, integrator=None))]
     fn redefine(
         &self,

@@ -132,12 +132,14 @@ pub fn touch<'py>(py: Python<'py>, touch: &Touch, obstacle: Bound<'py, PyAny>) -
 
 #[pymethods]
 impl Cable {
-    /// Sets what the cable can touch from the next step on, in place of the obstacles it had.
+    /// Sets what the cable can touch from the next step on, in place of the obstacles it had; their
+    /// velocities count from now. It touches them if it has the effect Contact. ``to_bytes``,
+    /// ``copy`` and ``cut`` keep them. Raises InWorldError, InvalidValueError, BuilderError.
     fn set_obstacles(&self, py: Python<'_>, obstacles: &Bound<'_, PyAny>) -> PyResult<()> {
         let own = self.own("take obstacles of its own: the colliders of the world are its obstacles")?.clone();
         let wrong = |error: serde_json::Error| raise(Raise::new("BuilderError", error.to_string()));
         let parameters = obstacles.try_iter()?.map(|item| {
-            let plain = py.import("lariat.contact")?.getattr("plain")?.call1((item?,))?;
+            let plain = py.import("lariat_cables.contact")?.getattr("plain")?.call1((item?,))?;
             serde_json::from_value::<Parameters>(data(&plain)?).map_err(wrong)
         });
         let parameters = parameters.collect::<PyResult<Vec<_>>>()?;
@@ -149,14 +151,15 @@ impl Cable {
         Ok(())
     }
 
-    /// What the cable touched at the end of the last step, by the index of the obstacle.
+    /// Returns what the cable touched at the end of the last step, by the index of the obstacle.
+    /// Raises InWorldError.
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         self.own("read its contacts by itself: see World.contacts")?;
         let touches = self.read(py, |cable| Ok(cable.contacts().collect::<Vec<_>>()))?;
         touches.iter().map(|t| touch(py, t, t.obstacle.into_pyobject(py)?.into_any())).collect()
     }
 
-    /// Energy in J that contacts store.
+    /// Returns the energy in J that contacts store.
     fn contact_energy(&self, py: Python<'_>) -> PyResult<f64> {
         self.read(py, |cable| Ok(cable.contact_energy()))
     }

@@ -1,5 +1,6 @@
 //! `Cable`: built, stepped, saved; `read`, `change`, `contact` and `reel` hold the rest of its methods.
 
+mod batch;
 mod change;
 pub mod contact;
 mod read;
@@ -10,11 +11,11 @@ use crate::error::{Raise, raise};
 use crate::integrator::{Choice, fidelity};
 use crate::saved;
 use crate::section::Section;
-use crate::shared::{Shared, repeat_for_a_while};
+use crate::shared::Shared;
 use crate::world::Contents;
+pub use batch::{states, step_all, step_together};
 pub use contact::Laid;
 use lariat_ancf as ancf;
-use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{EquilibriumOptions, Error};
 use lariat_rapier::CableHandle;
 use pyo3::exceptions::PyTypeError;
@@ -30,9 +31,35 @@ enum Home {
     World(Shared<Contents>, CableHandle),
 }
 
-/// A cable of ANCF elements with its rule, integrator and state, and the obstacles that it was given by itself, which are saved with it. See
-/// `lariat.Cable` in the stubs for all arguments.
-#[pyclass(frozen, module = "lariat")]
+/// A cable of ANCF elements with its rule, integrator and state.
+///
+/// A point of a cable is "start", "end", an arc length of the unstretched cable in m from its start
+/// (float), or a ``lariat.Node``; another integer than 0 could be either, and raises
+/// AmbiguousPlaceError. Arrays are copies. Any number of threads may use a cable: they wait for
+/// each other, and other threads run Python while it is stepped.
+///
+/// A cable through ``points`` (m, shape (n, 3), n >= 2) of one section, or of several: (arc length
+/// in m where it begins, section).
+/// - ``length``: unstretched, in m; by default that of the polyline. Longer: it starts slack, in
+///   arcs that sag along gravity.
+/// - ``elements``: default 10. ``nodes_at``: arc lengths in m that get a node.
+/// - ``finest``: length in m of the elements at ``finest_at``, by default both ends, from where
+///   they grow by a constant ratio up to their number: for moments at clamps and loads, within
+///   ``sqrt(EI/T)`` of which a cable under a tension T bends.
+/// - ``rule``: "projected-3" (default), "G5-3", "ST2", "L2T2" ...
+/// - ``fidelity`` ("engineering" by default) or ``integrator``.
+/// - ``gravity``: m/s^2, default (0, -9.81, 0). ``velocity`` (m/s) and ``angular_velocity``
+///   (rad/s): a rigid motion of the start.
+/// - ``fix``, ``clamp``: points held as they start; a clamp holds the tangent in the direction of
+///   the polyline, too, also of a slack cable, which starts in equilibrium between its clamps. A
+///   node is placed there.
+/// - ``clamp_along``: clamps with their directions, as pairs of a place and a vector of any size.
+/// - ``effects``: see lariat.effects. ``damped_as``: a kind of rope, see ``rope_kinds()``.
+///
+/// Raises InvalidValueError, ShapeError, TooFewPointsError, CoincidentPointsError,
+/// ElementCountError, NoSectionError, RankDeficientError, OutOfRangeError, NodeBeforeMeshError,
+/// EffectsError, MissingForEffectError, ExplicitDampingError and those of unknown names.
+#[pyclass(frozen, module = "lariat_cables")]
 pub struct Cable(Home, Shared<Vec<Laid>>);
 
 impl Cable {
@@ -134,7 +161,7 @@ fn sections(section: &Bound<'_, PyAny>) -> PyResult<Vec<(f64, ancf::Section)>> {
 
 /// Returns effects from what `lariat.effects.collect` makes of them.
 fn effects(effects: &Bound<'_, PyAny>) -> PyResult<ancf::Effects> {
-    let dict = effects.py().import("lariat.effects")?.getattr("collect")?.call1((effects,))?;
+    let dict = effects.py().import("lariat_cables.effects")?.getattr("collect")?.call1((effects,))?;
     serde_json::from_value(data(&dict)?).map_err(|error| raise(Raise::new("EffectsError", format!("effects: {error}"))))
 }
 
@@ -222,13 +249,17 @@ impl Cable {
         Ok(Cable::new(cable))
     }
 
-    /// Advances the cable by `steps` steps of `dt` (s).
+    /// Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Ctrl-C ends it after a
+    /// step. Raises InvalidValueError, AttachedError, InWorldError, and StepFailedError, after
+    /// which the cable is as it was before the step that failed.
     #[pyo3(signature = (dt, *, steps=1))]
     fn step(&self, py: Python<'_>, dt: f64, steps: usize) -> PyResult<()> {
         self.own("step by itself")?.repeat(py, steps, |cable| cable.step(dt))?.map_err(raise)
     }
 
-    /// Moves the cable to static equilibrium.
+    /// Moves the cable to static equilibrium. ``tolerance``: largest residual force over the sum of
+    /// the loads. Raises NoEquilibriumError, after which the cable is as it was; AttachedError,
+    /// InWorldError.
     #[pyo3(signature = (*, tolerance=1e-9, iterations=400))]
     fn equilibrium<'py>(&self, py: Python<'py>, tolerance: f64, iterations: usize) -> PyResult<Bound<'py, PyAny>> {
         let options = EquilibriumOptions { tolerance, iterations };
@@ -237,14 +268,14 @@ impl Cable {
         crate::convert::result(py, "Equilibrium", (report.iterations, report.residual, report.stable))
     }
 
-    /// Returns description and state as bytes; `from_bytes` continues the run bitwise.
+    /// Returns description and state; ``from_bytes`` continues the run bitwise. Pickle uses it.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let obstacles = self.obstacles(py);
         let written = self.read(py, |cable| Ok(saved::write(&(cable, &obstacles))))?;
         saved::to_bytes(py, "cable", written)
     }
 
-    /// Returns a cable from the bytes of `to_bytes`, of the same version.
+    /// Returns a saved cable of the same version. Raises FormatError.
     #[staticmethod]
     fn from_bytes(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
         let (cable, obstacles) = saved::from_bytes("cable", &bytes)?;
@@ -276,62 +307,10 @@ impl Cable {
         })
     }
 
-    /// Cuts the cable; this one keeps the part before the point, the other is returned.
+    /// Cuts the cable; this one keeps the part before the point, the other is returned. Raises
+    /// OutOfRangeError, InWorldError.
     fn cut(&self, py: Python<'_>, at: Place) -> PyResult<Self> {
         let cut = self.own("be cut by itself")?.compute(py, |cable| cable.cut(at.0)).map_err(raise)?;
         Ok(Cable::laid(cut, self.obstacles(py)))
     }
-}
-
-/// Cables that are stepped in one call, each with its place in the call, in one order for all threads, so that none waits for one that
-/// waits for it.
-fn apart(cables: &[Bound<'_, Cable>]) -> PyResult<Vec<(Shared<ancf::Cable>, usize)>> {
-    let mut own = Vec::new();
-    for (index, cable) in cables.iter().enumerate() {
-        own.push((cable.get().own("step by itself")?.clone(), index));
-    }
-    own.sort_by_key(|(cable, _)| cable.address());
-    if own.windows(2).any(|pair| pair[0].0.address() == pair[1].0.address()) {
-        return Err(raise(Raise::new("DuplicateCableError", "the same cable is given twice")));
-    }
-    Ok(own)
-}
-
-/// Advances cables that nothing connects by `dt` (s), on all threads.
-#[pyfunction]
-pub fn step_all(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64) -> PyResult<()> {
-    let own = apart(&cables)?;
-    let outcome = py.detach(|| {
-        let mut guards: Vec<_> = own.iter().map(|(cable, _)| cable.lock()).collect();
-        let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|guard| &mut **guard).collect();
-        ancf::step_all(&mut cables, dt)
-    });
-    outcome.map_err(|error| {
-        let mut failures: Vec<_> = error.failures.into_iter().map(|(i, error)| (own[i].1, error)).collect();
-        failures.sort_by_key(|(index, _)| *index);
-        raise(failures.swap_remove(0).1)
-    })
-}
-
-/// Advances cables that may touch each other by `steps` steps of `dt` (s), in one system, with the integrator of the first.
-#[pyfunction]
-#[pyo3(signature = (cables, dt, *, steps=1))]
-pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: usize) -> PyResult<()> {
-    let own = apart(&cables)?;
-    let (mut left, mut island) = (steps, ancf::island::Island::default());
-    while left > 0 {
-        let outcome = py.detach(|| {
-            let mut guards: Vec<_> = own.iter().map(|(cable, place)| (cable.lock(), *place)).collect();
-            guards.sort_by_key(|(_, place)| *place);
-            let mut cables: Vec<&mut ancf::Cable> = guards.iter_mut().map(|(guard, _)| &mut **guard).collect();
-            let integrator = cables.first().ok_or(ancf::Error::EmptyIsland)?.integrator();
-            repeat_for_a_while(&mut left, || {
-                cables.iter_mut().try_for_each(|cable| cable.remesh_reel())?;
-                island.step(&mut cables, &mut [], &[], integrator, dt)
-            })
-        });
-        outcome.map_err(raise)?;
-        py.check_signals()?;
-    }
-    Ok(())
 }

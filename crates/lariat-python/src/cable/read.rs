@@ -1,18 +1,37 @@
 //! Reading a cable.
 
 use super::Cable;
-use crate::convert::{Array, Place, object, result, table, vector, vectors};
+use crate::convert::{Array, Place, Places, node, object, result, table, vector, vectors};
 use crate::integrator::Integrator;
 use crate::section::Section;
 use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::warning::Interface;
-use lariat_ancf::{Sample, Vector3};
+use lariat_ancf::{At, Sample, TorsionReading, Vector3};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 
 /// Returns the first or the last three of every six numbers.
 fn halves(values: &[f64], from: usize) -> Vec<f64> {
     values.chunks_exact(6).flat_map(|node| [node[from], node[from + 1], node[from + 2]]).collect()
+}
+
+/// Returns the points of an array or a sequence; None for a single point.
+fn places(at: &Bound<'_, PyAny>) -> PyResult<Option<Vec<At>>> {
+    if at.is_instance_of::<PyString>() || at.len().is_err() {
+        return Ok(None);
+    }
+    if at.hasattr("dtype")? {
+        let array: Array = at.extract()?;
+        if array.shape.len() > 1 {
+            return Err(array.wrong_shape("() or (n,)"));
+        }
+        let kind: String = at.getattr("dtype")?.getattr("kind")?.extract()?;
+        if kind == "f" {
+            return Ok(Some(array.values.into_iter().map(At::ArcLength).collect()));
+        }
+    }
+    Ok(Some(at.extract::<Places>()?.0))
 }
 
 type Rows<'py> = PyResult<Bound<'py, PyArray2<f64>>>;
@@ -25,7 +44,8 @@ impl Cable {
         self.read(py, |cable| Ok(cable.name().to_string()))
     }
 
-    /// Time of the state in s.
+    /// Time of the state in s. Set: prescribed motions and ramps keep their distance from it;
+    /// raises InWorldError, InvalidValueError.
     #[getter]
     fn time(&self, py: Python<'_>) -> PyResult<f64> {
         self.read(py, |cable| Ok(cable.time()))
@@ -61,19 +81,21 @@ impl Cable {
         Ok(PyArray1::from_vec(py, self.read(py, |cable| Ok(cable.node_arc_lengths()))?))
     }
 
-    /// Rule of the elastic forces.
+    /// Rule of the elastic forces. Set: raises UnknownRuleError, RankDeficientError,
+    /// MissingForEffectError.
     #[getter]
     fn rule(&self, py: Python<'_>) -> PyResult<String> {
         self.read(py, |cable| Ok(cable.rule().to_string()))
     }
 
-    /// The time integrator.
+    /// The time integrator. Set to an Integrator or the name of a fidelity: raises
+    /// ExplicitDampingError.
     #[getter]
     fn integrator(&self, py: Python<'_>) -> PyResult<Integrator> {
         self.read(py, |cable| Ok(Integrator(cable.integrator())))
     }
 
-    /// Gravity in m/s^2, shape (3,).
+    /// Gravity in m/s^2, shape (3,). Set: raises ShapeError, InvalidValueError.
     #[getter]
     fn gravity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(vector(py, &self.read(py, |cable| Ok(cable.gravity()))?))
@@ -109,36 +131,29 @@ impl Cable {
         table(py, self.read(py, |cable| Ok(cable.velocities().to_vec()))?, 6)
     }
 
-    /// Reads the cable at one arc length (m), or at an array of them.
-    fn sample<'py>(&self, py: Python<'py>, s: Array) -> PyResult<Bound<'py, PyAny>> {
-        let Array { values, shape } = &s;
-        if shape.len() > 1 {
-            return Err(s.wrong_shape("() or (n,)"));
-        }
-        let samples = self.read(py, |cable| values.iter().map(|&s| cable.sample(s)).collect::<Result<Vec<_>, _>>())?;
-        if let ([], [at]) = (&shape[..], &samples[..]) {
+    /// Reads the cable at one point, or at several: a sequence of points, or an array of arc
+    /// lengths in m of shape (n,). Raises OutOfRangeError, ShapeError, AmbiguousPlaceError.
+    fn sample<'py>(&self, py: Python<'py>, at: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let read = |places: &[At]| {
+            self.read(py, |cable| {
+                let one = |at: &At| cable.arc_length(*at).and_then(|s| Ok((s, cable.sample(s)?)));
+                places.iter().map(one).collect::<Result<Vec<(f64, Sample)>, _>>()
+            })
+        };
+        let Some(places) = places(at)? else {
+            let Place(at) = at.extract()?;
+            let Some((s, at)) = read(&[at])?.pop() else { return Ok(py.None().into_bound(py)) };
             let [position, velocity, slope] = [at.position, at.velocity, at.slope].map(|v| vector(py, &v));
             let [curvature, moment] = [at.curvature, at.moment].map(|v| vector(py, &v));
-            return result(
-                py,
-                "Sample",
-                (
-                    values[0],
-                    position,
-                    velocity,
-                    slope,
-                    at.tension,
-                    curvature,
-                    moment,
-                    at.green_strain,
-                    at.tension_uncertainty,
-                ),
-            );
-        }
+            let values =
+                (s, position, velocity, slope, at.tension, curvature, moment, at.green_strain, at.tension_uncertainty);
+            return result(py, "Sample", values);
+        };
+        let (values, samples): (Vec<f64>, Vec<Sample>) = read(&places)?.into_iter().unzip();
         let numbers = |read: fn(&Sample) -> f64| PyArray1::from_iter(py, samples.iter().map(read));
         let rows = |read: fn(&Sample) -> Vector3<f64>| vectors(py, &samples.iter().map(read).collect::<Vec<_>>());
         let values = (
-            PyArray1::from_slice(py, values),
+            PyArray1::from_vec(py, values),
             rows(|at| at.position)?,
             rows(|at| at.velocity)?,
             rows(|at| at.slope)?,
@@ -151,82 +166,90 @@ impl Cable {
         result(py, "Samples", values)
     }
 
-    /// Warnings about the cable.
+    /// Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         self.read(py, |cable| Ok(cable.warnings().iter().map(|warning| Interface::Python.text(warning)).collect()))
     }
 
-    /// Arc length in m of the largest tension, and that tension in N.
+    /// Returns the arc length in m of the largest tension, and that tension in N.
     fn peak_tension(&self, py: Python<'_>) -> PyResult<(f64, f64)> {
         self.read(py, |cable| Ok(cable.peak_tension()))
     }
 
-    /// Forces and moments of the supports on the cable.
+    /// Returns forces and moments of the supports on the cable, by ascending node. Raises
+    /// StepFailedError.
     fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let reactions = self.copied(py)?.reactions().map_err(crate::error::raise)?;
-        let one =
-            |r: &lariat_ancf::Reaction| result(py, "Reaction", (r.node, vector(py, &r.force), vector(py, &r.moment)));
+        let one = |r: &lariat_ancf::Reaction| {
+            result(py, "Reaction", (node(py, r.node)?, vector(py, &r.force), vector(py, &r.moment)))
+        };
         reactions.iter().map(one).collect()
     }
 
-    /// Energies in J.
+    /// Returns kinetic, axial, bending, gravity and torsion energy in J.
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let energy = self.read(py, |cable| Ok(cable.energy()))?;
         result(py, "Energy", (energy.kinetic, energy.axial, energy.bending, energy.gravity, energy.torsion))
     }
 
-    /// Torque and twist between each two neighbouring clamps that hold the spin.
+    /// Returns torque and twist between each two neighbouring clamps that hold the spin.
     fn torsion<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let readings = self.read(py, |cable| Ok(cable.torsion()))?;
-        let nodes = |nodes: [usize; 2]| (nodes[0], nodes[1]);
-        readings.iter().map(|r| result(py, "Twist", (nodes(r.nodes), r.twist, r.torque, r.twist_rate))).collect()
+        let one = |r: &TorsionReading| {
+            let nodes = (node(py, r.nodes[0])?, node(py, r.nodes[1])?);
+            result(py, "Twist", (nodes, r.twist, r.torque, r.twist_rate))
+        };
+        readings.iter().map(one).collect()
     }
 
-    /// Linear momentum in kg m/s, and angular momentum about the origin in kg m^2/s.
+    /// Returns linear momentum in kg m/s, and angular momentum about the origin in kg m^2/s.
     fn momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let momentum = self.read(py, |cable| Ok(cable.momentum()))?;
         result(py, "Momentum", (vector(py, &momentum.linear), vector(py, &momentum.angular)))
     }
 
-    /// Estimate of the largest error of position by the mesh in m, and largest turn in rad of an element that no node judges.
+    /// Returns what the shape says about the error of the mesh.
     fn mesh_indicator<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let indicator = self.read(py, |cable| Ok(cable.mesh_indicator()))?;
         result(py, "MeshIndicator", (indicator.position, indicator.turn))
     }
 
-    /// Angular frequencies in rad/s of small motions about the present state, ascending.
+    /// Returns the angular frequencies in rad/s of small motions about the present state,
+    /// ascending. Dense: for hundreds of nodes.
     fn natural_frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let mut cable = self.copied(py)?;
         Ok(PyArray1::from_vec(py, py.detach(|| cable.natural_frequencies())))
     }
 
-    /// Kelvin-Voigt times in s (axial, bending) that damp a mode by this ratio.
+    /// Returns the damping that damps the ``mode``-th frequency, from 1, by this ratio of critical.
+    /// Raises OutOfRangeError.
     fn damping_at_mode<'py>(&self, py: Python<'py>, ratio: f64, mode: usize) -> PyResult<Bound<'py, PyAny>> {
         let mut cable = self.copied(py)?;
         let damping = py.detach(|| cable.damping_at_mode(ratio, mode)).map_err(crate::error::raise)?;
-        py.import("lariat.effects")?.getattr("Damping")?.call1((damping.axial, damping.bending))
+        py.import("lariat_cables.effects")?.getattr("Damping")?.call1((damping.axial, damping.bending))
     }
 
-    /// Effects that are on, by key.
+    /// Effects that are on, by key. Set to an effect, a list of them or a dict: replaces all;
+    /// raises EffectsError, MissingForEffectError, ExplicitDampingError.
     #[getter]
     fn effects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let value = self.read(py, |cable| Ok(serde_json::to_value(cable.effects())))?;
         let value = value.map_err(|e| crate::error::raise(crate::error::Raise::new("EffectsError", e.to_string())))?;
-        py.import("lariat.effects")?.getattr("build")?.call1((object(py, &value)?,))
+        py.import("lariat_cables.effects")?.getattr("build")?.call1((object(py, &value)?,))
     }
 
-    /// Counts of steps, iterations and evaluations.
+    /// Returns counts of steps, iterations and evaluations.
     fn diagnostics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let value = self.read(py, |cable| Ok(serde_json::to_value(cable.diagnostics())))?;
         object(py, &value.unwrap_or_default())
     }
 
-    /// Returns the number of the node at a point.
-    fn node(&self, py: Python<'_>, at: Place) -> PyResult<usize> {
-        self.read(py, |cable| cable.node(at.0))
+    /// Returns the node at a point. Raises OutOfRangeError, NoNodeError.
+    fn node<'py>(&self, py: Python<'py>, at: Place) -> PyResult<Bound<'py, PyAny>> {
+        node(py, self.read(py, |cable| cable.node(at.0))?)
     }
 
-    /// Copies the nodal coordinates into an array of shape (nodes, 6) that is given: nothing is allocated.
+    /// Copies the nodal coordinates into a contiguous array of shape (nodes, 6). Raises ShapeError.
     fn read_into(&self, py: Python<'_>, coordinates: &Bound<'_, PyArray2<f64>>) -> PyResult<()> {
         let mut writable = coordinates.try_readwrite().map_err(PyErr::from)?;
         let nodes = self.nodes(py)?;

@@ -32,8 +32,16 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::borrow::Cow;
 
-/// A cable on bodies that another program moves.
-#[pyclass(frozen, module = "lariat")]
+/// A cable on bodies that another program moves: per step it takes their poses, and returns forces,
+/// moments and the impedance.
+///
+/// A body is known by a reference point, by convention its centre of mass. Rotations are
+/// quaternions x, y, z, w. ``step`` once per step, with the last forces on the bodies, is an
+/// explicit exchange: stable where the impedance is small beside the mass matrix of the bodies.
+/// ``lariat.Exchange`` repeats it until forces and poses agree, and is stable for any.
+///
+/// A co-simulation of this cable, which is from now on stepped by it. Raises InWorldError.
+#[pyclass(frozen, module = "lariat_cables")]
 pub struct CoSimulation {
     /// Locked before the cable.
     link: Shared<Link>,
@@ -86,21 +94,22 @@ impl CoSimulation {
 
 #[pymethods]
 impl CoSimulation {
-    /// A co-simulation of this cable, which is from now on stepped by it.
     #[new]
     fn new(cable: Bound<'_, Cable>) -> PyResult<Self> {
         let own = cable.get().own("be part of a co-simulation")?.clone();
         Ok(CoSimulation { link: Shared::new(Link::default()), cable: own, object: cable.unbind() })
     }
 
-    /// The cable.
+    /// The cable, to read it.
     #[getter]
     fn cable(&self, py: Python<'_>) -> Py<Cable> {
         self.object.clone_ref(py)
     }
 
-    /// Attaches a node to a body whose reference point is at `position` (m) with `rotation` (quaternion x, y, z, w), where the node is now;
-    /// a clamp holds the direction of the tangent, too. Returns the index of the end.
+    /// Attaches a node to a body whose reference point is at ``position`` (m) with ``rotation``:
+    /// where the node is now. A clamp holds the direction of the tangent, too. Returns the index of
+    /// the end. Raises OutOfRangeError, NoNodeError, AlreadyAttachedError (by this or another
+    /// co-simulation).
     #[pyo3(signature = (at, position, rotation=None, *, clamp=false))]
     fn attach(
         &self,
@@ -140,9 +149,11 @@ impl CoSimulation {
         attached.map_err(raise)
     }
 
-    /// Advances the cable by `dt` (s) while the bodies move to these poses: `positions` (ends, 3) in m, `rotations` (ends, 4) as x, y, z, w
-    /// (default: as they are), `velocities` (ends, 3) in m/s and `angular_velocities` (ends, 3) in rad/s at the end of the step (default:
-    /// uniform motion). Returns what the cable did to the bodies.
+    /// Advances the cable by ``dt`` (s) while the bodies move to ``positions`` (m, shape (ends,
+    /// 3)), ``rotations`` (shape (ends, 4); default: unchanged) with ``velocities`` (m/s) and
+    /// ``angular_velocities`` (rad/s) at the end of the step (shape (ends, 3); default: uniform
+    /// motion over the step). Raises ShapeError, InvalidValueError, GapTooLongError (something else
+    /// moved an end by more than 1e-3 m), and StepFailedError, after which all is as before.
     #[pyo3(signature = (dt, positions, rotations=None, velocities=None, angular_velocities=None))]
     fn step<'py>(
         &self,
@@ -187,7 +198,10 @@ impl CoSimulation {
         result(py, "EndForces", values)
     }
 
-    /// Returns the impedance Z in kg, kg m and kg m^2 for a step of `dt` (s), shape (6 ends, 6 ends).
+    /// Returns Z, shape (6 ends, 6 ends), velocity before angular velocity of each end, about the
+    /// reference points, in kg, kg m and kg m^2: if the velocities at the end of a step of ``dt``
+    /// (s) differ by dv from the prescribed ones, the impulse on the bodies differs by -Z dv.
+    /// Raises InvalidValueError.
     fn impedance<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         if !(dt.is_finite() && dt > 0.0) {
             let (cable, what, expected) = (None, "dt (s)".to_string(), "> 0");
@@ -199,14 +213,15 @@ impl CoSimulation {
         table(py, z.as_slice().to_vec(), z.ncols())
     }
 
-    /// Returns the state of cable and ends as bytes, for `restore`.
+    /// Returns the state of cable and ends, for ``restore``.
     fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let cable = self.cable.clone();
         let written = self.link.compute(py, move |link| saved::write(&(cable.lock().snapshot(), &link.ends)));
         saved::to_bytes(py, STATE, written)
     }
 
-    /// Restores a state of this co-simulation; the run continues bitwise from there.
+    /// Restores a state of this co-simulation; the run continues bitwise from there. Raises
+    /// FormatError, WrongCountError.
     fn restore(&self, py: Python<'_>, snapshot: Cow<'_, [u8]>) -> PyResult<()> {
         let (state, ends): (ancf::Snapshot, Vec<End>) = saved::from_bytes(STATE, &snapshot)?;
         let cable = self.cable.clone();
@@ -223,7 +238,8 @@ impl CoSimulation {
         restored.map_err(raise)
     }
 
-    /// Returns a copy, with a cable of its own.
+    /// Returns a copy with a cable of its own, obstacles included. ``copy.copy`` and
+    /// ``copy.deepcopy`` use it.
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
         let ends = self.link.with(py, |link| link.ends.clone());
         Self::of_parts(py, self.object.get().copy(py)?, ends)
@@ -237,14 +253,14 @@ impl CoSimulation {
         self.copy(py)
     }
 
-    /// Returns cable and ends as bytes; `from_bytes` continues the run bitwise.
+    /// Returns cable, obstacles and ends; ``from_bytes`` continues the run bitwise. Pickle uses it.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let (cable, obstacles) = (self.cable.clone(), self.object.get().obstacles(py));
         let written = self.link.compute(py, move |link| saved::write(&(&*cable.lock(), &obstacles, &link.ends)));
         saved::to_bytes(py, "co-simulation", written)
     }
 
-    /// Returns a co-simulation from the bytes of `to_bytes`, of the same version.
+    /// Returns a saved co-simulation of the same version. Raises FormatError.
     #[staticmethod]
     fn from_bytes(py: Python<'_>, bytes: Cow<'_, [u8]>) -> PyResult<Self> {
         let (cable, obstacles, ends): (ancf::Cable, Vec<Laid>, Vec<End>) = saved::from_bytes("co-simulation", &bytes)?;

@@ -151,7 +151,7 @@ impl World {
         Ok(handle.into_raw_parts())
     }
 
-    /// Adds a body with its colliders.
+    /// Adds a body with its colliders. Raises InvalidValueError, BuilderError.
     #[pyo3(signature = (builder, colliders=None))]
     fn add_body<'py>(
         slf: &Bound<'py, Self>,
@@ -160,16 +160,17 @@ impl World {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let colliders = colliders.unwrap_or_else(|| pyo3::types::PyList::empty(py).into_any());
-        py.import("lariat.bodies")?.getattr("add")?.call1((slf, builder, colliders))
+        py.import("lariat_cables.bodies")?.getattr("add")?.call1((slf, builder, colliders))
     }
 
     /// The bodies, by handle.
     #[getter]
     fn rigid_bodies<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("lariat.bodies")?.getattr("RigidBodySet")?.call1((slf,))
+        slf.py().import("lariat_cables.bodies")?.getattr("RigidBodySet")?.call1((slf,))
     }
 
-    /// Removes a body with its colliders; attachments to it end at the next step.
+    /// Removes a body with its colliders; attachments to it end at the next step. Raises
+    /// NoBodyError.
     fn remove_body(&self, py: Python<'_>, handle: Handle) -> PyResult<()> {
         let removed = self.0.compute(py, |Contents { world, bodies, .. }| {
             bodies.retain(|body| *body != handle.0);

@@ -126,17 +126,18 @@ impl World {
         added.map_err(raise::<Error>)
     }
 
-    /// Adds a collider to a body, or one fixed in the world.
+    /// Adds a collider to a body, or one fixed in the world. Raises NoBodyError, BuilderError,
+    /// InvalidValueError.
     #[pyo3(signature = (builder, parent=None))]
     fn add_collider<'py>(
         slf: &Bound<'py, Self>,
         builder: &Bound<'py, PyAny>,
         parent: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("lariat.bodies")?.getattr("add_collider")?.call1((slf, builder, parent))
+        slf.py().import("lariat_cables.bodies")?.getattr("add_collider")?.call1((slf, builder, parent))
     }
 
-    /// Removes a collider.
+    /// Removes a collider. Raises NoColliderError.
     fn remove_collider(&self, py: Python<'_>, handle: (u32, u32)) -> PyResult<()> {
         let handle = collider_handle(handle);
         let removed = self.0.compute(py, |Contents { world, .. }| world.remove_collider(handle).map(|_| ()));

@@ -15,7 +15,7 @@ pub(super) fn warn(py: Python<'_>, lines: Vec<String>) -> PyResult<()> {
     if lines.is_empty() {
         return Ok(());
     }
-    let category = py.import("lariat.errors")?.getattr("ResultWarning")?;
+    let category = py.import("lariat_cables.errors")?.getattr("ResultWarning")?;
     lines.into_iter().try_for_each(|line| PyErr::warn(py, &category, &CString::new(line)?, 1))
 }
 
@@ -61,19 +61,23 @@ impl Contents {
 
 #[pymethods]
 impl World {
-    /// Events of the last step.
+    /// Returns the events of the last step.
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let events = self.0.with(py, |contents| contents.set.events().to_vec());
         events.into_iter().map(|event| self.event(py, event)).collect()
     }
 
-    /// What the cables say about their mesh, steps, law and sizes, and about colliders that they are in or do not bounce off.
+    /// Returns what all cables say about their mesh, steps, energy, law and sizes, and about
+    /// colliders that they are in or do not bounce off. Worth a look when a world has been built.
     fn warnings(&self, py: Python<'_>) -> Vec<String> {
         let warnings = self.0.compute(py, |contents| contents.set.warnings(&contents.world));
         warnings.iter().map(|warning| Interface::Python.text(warning)).collect()
     }
 
-    /// Moves cables and the bodies on them to static equilibrium; returns whether all is stable, and what was moved.
+    /// Moves cables and the bodies on them, as their joints allow, to static equilibrium; true if
+    /// all is stable. Cables with contact lie on fixed and kinematic colliders, without friction.
+    /// Raises NoEquilibriumError, JointInStaticsError, ContactInStaticsError,
+    /// CableTouchesInStaticsError; all is then as before.
     fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let found = self.0.compute(py, |contents| contents.set.equilibrium(&mut contents.world)).map_err(raise)?;
         let handles = |bodies: &[RigidBodyHandle]| -> PyResult<Vec<Bound<'py, PyAny>>> {
@@ -83,7 +87,8 @@ impl World {
         result(py, "WorldEquilibrium", (found.is_stable(), bodies.0, bodies.1, bodies.2))
     }
 
-    /// What a cable touched of others and of itself at the end of the last step, each with the other cable.
+    /// Returns what a cable touched of others and of itself at the end of the last step, if its
+    /// contact says that it may. Raises NoCableError.
     fn cable_contacts<'py>(&self, py: Python<'py>, cable: &Cable) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let handle = cable.handle_in(&self.0)?;
         let touches = self.0.with(py, |contents| contents.set.cable_contacts(handle)).map_err(raise)?;

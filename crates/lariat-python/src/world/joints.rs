@@ -105,13 +105,13 @@ impl World {
     /// The impulse joints, by handle.
     #[getter]
     fn impulse_joints<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("lariat.joints")?.getattr("ImpulseJointSet")?.call1((slf,))
+        slf.py().import("lariat_cables.joints")?.getattr("ImpulseJointSet")?.call1((slf,))
     }
 
     /// The multibody joints, by handle.
     #[getter]
     fn multibody_joints<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("lariat.joints")?.getattr("MultibodyJointSet")?.call1((slf,))
+        slf.py().import("lariat_cables.joints")?.getattr("MultibodyJointSet")?.call1((slf,))
     }
 
     /// Inserts a joint between two bodies.

@@ -56,8 +56,19 @@ pub struct Contents {
     told: Vec<String>,
 }
 
-/// A world of rigid bodies and cables.
-#[pyclass(frozen, module = "lariat")]
+/// rapier3d with cables on its bodies. Names are those of the ``rapier3d`` wheel where they
+/// overlap; bodies have single precision.
+///
+/// A world of this gravity (m/s^2, default (0, -9.81, 0)) and host step (s, default 1/60).
+/// ``fidelity``: of cables whose integrator nobody chose. ``rapier_steps``, ``max_rapier_steps``:
+/// Rapier's steps per host step. ``sleep_speed``: in m/s, below which cables and bodies may fall
+/// asleep; 0 = never. ``max_iterations`` (Newton iterations of each island, repeatable) or
+/// ``max_time`` (wall-clock s): the work of a host step beyond which accuracy is reduced, with the
+/// event "degraded"; by default 2000 iterations per 1/60 s for cables with fidelity game, and no
+/// limit for others, nor for any with ``max_time=math.inf``. ``warn_level``: up to which level
+/// ``warnings`` and events warn; by default of cables with fidelity game up to "wrong", of others
+/// up to "coarse". Raises InvalidValueError, UnknownFidelityError, UnknownKindError.
+#[pyclass(frozen, module = "lariat_cables")]
 pub struct World(pub Shared<Contents>);
 
 /// Returns the kind of an attachment by its name.
@@ -124,7 +135,10 @@ impl World {
         Ok(World(Shared::new(contents)))
     }
 
-    /// Advances bodies and cables by `dt`. The first warning of each kind goes through Python's `warnings`.
+    /// Advances bodies and cables by ``dt``. The first warning of each kind, before the first step
+    /// and after each, goes through Python's ``warnings`` as ``errors.ResultWarning``;
+    /// ``warnings()`` has all. Raises StepRefusedError if some cables cannot step; all others have
+    /// advanced.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
         let (outcome, lines) = self.0.compute(py, |contents| {
             let mut lines = contents.of_start();
@@ -142,7 +156,8 @@ impl World {
         events::warn(py, lines)
     }
 
-    /// Adds a copy of a cable, and returns it as a part of this world.
+    /// Adds a copy of a cable, and returns it as a part of this world. Raises NoCableError for one
+    /// that was removed from its world.
     fn add_cable(&self, py: Python<'_>, cable: &Cable) -> PyResult<Cable> {
         let cable = cable.copied(py)?;
         let handle = self.0.compute(py, |contents| contents.set.insert(cable));
@@ -156,21 +171,27 @@ impl World {
         handles.into_iter().map(|handle| Cable::of_world(self.0.clone(), handle)).collect()
     }
 
-    /// Removes a cable with its attachments, and returns it by itself.
+    /// Removes a cable with its attachments, and returns it by itself. Raises NoCableError,
+    /// OtherWorldError.
     fn remove_cable(&self, py: Python<'_>, cable: &Cable) -> PyResult<Cable> {
         let handle = cable.handle_in(&self.0)?;
         let removed = self.0.compute(py, |Contents { world, set, .. }| set.remove(world, handle));
         removed.map(Cable::new).map_err(raise)
     }
 
-    /// Cuts a cable; it keeps the part before the point, the other is returned.
+    /// Cuts a cable; it keeps the part before the point, the other is returned. Raises
+    /// OutOfRangeError.
     fn cut(&self, py: Python<'_>, cable: &Cable, at: Place) -> PyResult<Cable> {
         let handle = cable.handle_in(&self.0)?;
         let rest = self.0.compute(py, |contents| contents.set.cut(handle, at.0)).map_err(raise)?;
         Ok(Cable::of_world(self.0.clone(), rest))
     }
 
-    /// Attaches a point of a cable to a body: at `anchor` (m, body axes), by default where the point is now.
+    /// Attaches a point of a cable to a body: at ``anchor`` (m, body axes), by default where the
+    /// point is now. ``gap``: the largest distance in m that is closed; None: any. ``direction``:
+    /// of the tangent of a clamp, in body axes; by default as it is, of a slack cable as it was
+    /// laid that of the drawing. Returns the number of the attachment. Raises GapTooLongError,
+    /// AlreadyAttachedError, NoBodyError, NoCableError, OutOfRangeError.
     #[pyo3(signature = (cable, at, body, anchor=None, *, kind="ball", gap=1e-3, direction=None))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn attach(
@@ -198,7 +219,7 @@ impl World {
         attached.map_err(raise)
     }
 
-    /// Ends an attachment.
+    /// Ends an attachment, by its number or its name in the scene. Raises NoAttachmentError.
     fn detach(&self, py: Python<'_>, attachment: Which) -> PyResult<()> {
         let outcome = self.0.compute(py, |contents| {
             let handle = contents.attachment(&attachment)?;
@@ -207,7 +228,8 @@ impl World {
         outcome.map_err(raise)
     }
 
-    /// What a cable does to its body at an attachment, after the last step.
+    /// Returns what the cable does to the body, after the last step; of an attachment by its
+    /// number, or its name in the scene. Raises NoAttachmentError.
     fn attachment<'py>(&self, py: Python<'py>, attachment: Which) -> PyResult<Bound<'py, PyAny>> {
         let reading = self.0.with(py, |contents| {
             let handle = contents.attachment(&attachment)?;
@@ -218,13 +240,14 @@ impl World {
         result(py, "Attachment", (force, moment, gap, reading.work))
     }
 
-    /// Whether a cable is asleep with the bodies attached to it.
+    /// Returns whether a cable is asleep with the bodies attached to it. Raises OtherWorldError,
+    /// NoCableError.
     fn is_asleep(&self, py: Python<'_>, cable: &Cable) -> PyResult<bool> {
         let handle = cable.handle_in(&self.0)?;
         self.0.with(py, |contents| contents.set.is_asleep(handle)).map_err(raise)
     }
 
-    /// Energies of cables and bodies in J.
+    /// Returns energies in J.
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let energy = self.0.with(py, |contents| contents.set.energy(&contents.world)).map_err(raise)?;
         let cables = energy.cables;
@@ -233,7 +256,7 @@ impl World {
         result(py, "WorldEnergy", (cables, energy.bodies_kinetic, energy.bodies_gravity))
     }
 
-    /// Momentum of cables and bodies.
+    /// Returns the momentum of cables and bodies.
     fn momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let momentum = self.0.with(py, |contents| contents.set.momentum(&contents.world)).map_err(raise)?;
         result(py, "Momentum", (vector(py, &momentum.linear), vector(py, &momentum.angular)))
@@ -245,7 +268,7 @@ impl World {
         self.0.with(py, |contents| contents.time)
     }
 
-    /// The host step in s.
+    /// The host step in s. Set: raises InvalidValueError.
     #[getter]
     fn dt(&self, py: Python<'_>) -> f64 {
         self.0.with(py, |contents| f64::from(contents.world.integration_parameters.dt))
@@ -258,7 +281,7 @@ impl World {
         Ok(())
     }
 
-    /// Gravity in m/s^2, shape (3,).
+    /// Gravity in m/s^2, shape (3,). Set: raises ShapeError, InvalidValueError.
     #[getter]
     fn gravity<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray1<f64>> {
         vector(py, &lariat_rapier::convert::vector(self.0.with(py, |contents| contents.world.gravity)))
@@ -271,19 +294,37 @@ impl World {
         Ok(())
     }
 
-    /// Returns bodies and cables as bytes; `restore` continues the run bitwise.
+    /// Returns bodies and cables, for ``restore``.
     fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        self.to_bytes(py)
+    }
+
+    /// Restores bodies and cables of a snapshot of the same version; the run continues bitwise from
+    /// there. Cables and handles of what is in it stay valid; those of what was added since raise
+    /// NoCableError, NoBodyError. Raises FormatError, after which all is as before.
+    fn restore(&self, py: Python<'_>, snapshot: Cow<'_, [u8]>) -> PyResult<()> {
+        let saved: Contents = saved::from_bytes("world", &snapshot)?;
+        self.0.compute(py, |contents| {
+            let told = core::mem::take(&mut contents.told);
+            *contents = Contents { told, ..saved };
+        });
+        Ok(())
+    }
+
+    /// Returns bodies and cables; ``from_bytes`` continues the run bitwise. Pickle uses it.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         saved::to_bytes(py, "world", self.0.compute(py, |contents| saved::write(contents)))
     }
 
-    /// Returns a world from the bytes of `snapshot`, of the same version.
+    /// Returns a saved world of the same version, from ``to_bytes`` or ``snapshot``. Raises
+    /// FormatError.
     #[staticmethod]
-    fn restore(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
+    fn from_bytes(bytes: Cow<'_, [u8]>) -> PyResult<Self> {
         Ok(World(Shared::new(saved::from_bytes("world", &bytes)?)))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let restore = slf.get_type().getattr("restore")?;
-        Ok((restore, (slf.get().snapshot(slf.py())?,)))
+        let from_bytes = slf.get_type().getattr("from_bytes")?;
+        Ok((from_bytes, (slf.get().to_bytes(slf.py())?,)))
     }
 }

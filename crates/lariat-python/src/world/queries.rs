@@ -49,14 +49,18 @@ fn handle<'py>(py: Python<'py>, handle: ColliderHandle) -> PyResult<Bound<'py, P
 
 #[pymethods]
 impl World {
-    /// Lets a cable touch the colliders, or no longer.
+    /// Lets a cable touch the colliders, and other cables and itself if the contact says so, or no
+    /// longer with None; it gets the integrator "discrete-gradient" if nobody chose one. Raises
+    /// InvalidValueError, MissingForEffectError (no diameter and no radius), ContactMethodError,
+    /// NoCableError.
     #[pyo3(signature = (cable, contact))]
     fn set_contact(&self, py: Python<'_>, cable: &Cable, contact: &Bound<'_, PyAny>) -> PyResult<()> {
         let (handle, contact) = (cable.handle_in(&self.0)?, contact::effect(contact)?);
         self.0.compute(py, |contents| contents.set.set_contact(handle, contact)).map_err(raise)
     }
 
-    /// Sets the groups of a cable as (memberships, filter), and how its friction and restitution are combined.
+    /// Sets the groups of a cable as bits (memberships, filter), None: all; and how its friction
+    /// and restitution are combined with those of colliders. Raises OtherWorldError, NoCableError.
     #[pyo3(signature = (cable, *, collision_groups=None, solver_groups=None, friction_combine_rule="average", restitution_combine_rule="average"))]
     fn set_contact_rules(
         &self,
@@ -77,7 +81,8 @@ impl World {
         self.0.compute(py, |contents| contents.set.set_contact_rules(handle, rules)).map_err(raise)
     }
 
-    /// What a cable touched at the end of the last step.
+    /// Returns what a cable touched at the end of the last step, each with its collider. Raises
+    /// OtherWorldError, NoCableError.
     fn contacts<'py>(&self, py: Python<'py>, cable: &Cable) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let of = cable.handle_in(&self.0)?;
         let touches = self.0.with(py, |contents| Ok(contents.set.contacts(of)?.collect::<Vec<_>>()));
@@ -85,7 +90,7 @@ impl World {
         touches.iter().map(|(collider, touch)| contact::touch(py, touch, handle(py, *collider)?)).collect()
     }
 
-    /// The body of a collider; None for one without.
+    /// Returns the body of a collider; None for one without. Raises NoColliderError.
     fn collider_parent<'py>(&self, py: Python<'py>, collider: (u32, u32)) -> PyResult<Option<Bound<'py, PyAny>>> {
         let collider = collider_handle(collider);
         let parent = self.0.with(py, |contents| contents.world.colliders.get(collider).map(|found| found.parent()));
@@ -93,7 +98,9 @@ impl World {
         parent.ok_or_else(none)?.map(|body| result(py, "RigidBodyHandle", body.into_raw_parts())).transpose()
     }
 
-    /// The first collider on a ray, as (handle, time of impact); None if there is none.
+    /// Returns the first collider on the ray ``origin + t direction`` (m), and its t up to
+    /// ``max_toi``; None if there is none. With ``solid`` a ray from inside meets it at 0, else its
+    /// far side. Queries see colliders as of the last step. Raises InvalidValueError.
     #[pyo3(signature = (origin, direction, max_toi, solid=true, *, exclude_rigid_body=None))]
     fn cast_ray<'py>(
         &self,
@@ -109,7 +116,7 @@ impl World {
         found.map(|(collider, toi)| Ok((handle(py, collider)?, f64::from(toi)))).transpose()
     }
 
-    /// As `cast_ray`, with the normal.
+    /// As ``cast_ray``, with the normal. Raises InvalidValueError.
     #[pyo3(signature = (origin, direction, max_toi, solid=true, *, exclude_rigid_body=None))]
     fn cast_ray_and_get_normal<'py>(
         &self,
@@ -132,7 +139,9 @@ impl World {
             .transpose()
     }
 
-    /// The nearest point on a collider, as (handle, projection); None if there is none.
+    /// Returns the collider nearest to a point (m) within ``max_dist``, and its nearest point; None
+    /// if there is none. With ``solid`` a point inside is its own projection. Raises ShapeError,
+    /// InvalidValueError.
     #[pyo3(signature = (point, solid=true, *, max_dist=1e15, exclude_rigid_body=None))]
     fn project_point<'py>(
         &self,
@@ -153,7 +162,7 @@ impl World {
             .transpose()
     }
 
-    /// The colliders that contain a point.
+    /// Returns the colliders that contain a point (m). Raises ShapeError, InvalidValueError.
     #[pyo3(signature = (point, *, exclude_rigid_body=None))]
     fn intersect_point<'py>(
         &self,

@@ -31,7 +31,11 @@ impl Contents {
 
 #[pymethods]
 impl World {
-    /// Adds the usual rope between two points, held there by bodies or by the world.
+    /// Adds the usual rope between two points (m), each held by a body or by the world, damped by
+    /// 0.2 of critical at its lowest axial mode. ``slack``: unstretched length beyond the distance,
+    /// as a share of it; ``strength``: tension in N above which it breaks; ``elements``: default
+    /// that of fidelity game. Raises NoBodyError, CoincidentPointsError, InvalidValueError,
+    /// ElementCountError.
     #[pyo3(signature = (start, end, section, *, start_body=None, end_body=None, slack=0.0, strength=None, elements=None, fidelity=None, name="rope"))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn add_rope<'py>(
@@ -64,7 +68,10 @@ impl World {
         result(py, "Rope", (self.cable(cable), start, end))
     }
 
-    /// Ties a point of a cable to a point of another, and returns the number of the junction.
+    /// Ties a point of a cable to a point of another, like a massless shackle; ``gap``: the largest
+    /// distance in m that is closed, None: any. Returns the number of the junction; that of one of
+    /// the points, if it is tied already. Raises GapTooLongError, AlreadyAttachedError,
+    /// NoCableError, OutOfRangeError.
     #[pyo3(signature = (first, at, second, second_at, *, gap=1e-3))]
     fn join(
         &self,
@@ -89,7 +96,8 @@ impl World {
         joined.map_err(raise)
     }
 
-    /// Unties a cable from a junction.
+    /// Unties a cable from a junction; one with a single point left ends. Raises NoJunctionError,
+    /// NoCableError.
     fn leave(&self, py: Python<'_>, junction: usize, cable: &Cable) -> PyResult<()> {
         let cable = cable.handle_in(&self.0)?;
         let outcome = self.0.compute(py, |contents| {
@@ -99,7 +107,8 @@ impl World {
         outcome.map_err(raise)
     }
 
-    /// The cables of a junction, each with the arc length in m of its point there.
+    /// Returns the cables of a junction, each with the arc length of its point in m. Raises
+    /// NoJunctionError.
     fn junction(&self, py: Python<'_>, junction: usize) -> PyResult<Vec<(Cable, f64)>> {
         let points = self.0.with(py, |contents| {
             let handle = contents.junction(junction)?;
@@ -108,7 +117,8 @@ impl World {
         Ok(points.map_err(raise)?.into_iter().map(|(cable, s)| (self.cable(cable), s)).collect())
     }
 
-    /// Sets the tension in N and the strain above which a cable breaks; None: no limit.
+    /// Sets the tension in N and the strain above which a cable breaks; None: no limit. Raises
+    /// InvalidValueError, OneElementError, NoCableError.
     #[pyo3(signature = (cable, tension=None, *, strain=None))]
     fn set_strength(&self, py: Python<'_>, cable: &Cable, tension: Option<f64>, strain: Option<f64>) -> PyResult<()> {
         let handle = cable.handle_in(&self.0)?;

@@ -91,7 +91,7 @@ impl Contents {
 
 #[pymethods]
 impl World {
-    /// The first cable of a name.
+    /// Returns the first cable of this name. Raises NoCableError, with the names that there are.
     #[pyo3(name = "cable")]
     fn cable_called(&self, py: Python<'_>, name: &str) -> PyResult<Cable> {
         let found = self.0.with(py, |contents| {
@@ -107,7 +107,8 @@ impl World {
         self.0.with(py, |contents| contents.body_names().map(|(_, name)| name).collect())
     }
 
-    /// The body that the scene calls by a name.
+    /// Returns the body that the scene of :func:`lariat.load` calls so. Raises NoBodyError, with
+    /// the names that there are.
     fn body<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let found = slf.get().0.with(py, |contents| {
@@ -117,7 +118,7 @@ impl World {
             found.ok_or_else(|| unnamed("NoBodyError", "body", name, own().map(|(name, _)| name.as_str())))
         });
         let handle = result(py, "RigidBodyHandle", found.map_err(raise)?.0.into_raw_parts())?;
-        py.import("lariat.bodies")?.getattr("RigidBody")?.call1((slf, handle))
+        py.import("lariat_cables.bodies")?.getattr("RigidBody")?.call1((slf, handle))
     }
 }
 

@@ -60,19 +60,27 @@ impl Contents {
 
 #[pymethods]
 impl World {
-    /// Sets the water of the world, or takes it away with all that is in it.
+    /// Sets the water of the world; bodies that are in it stay, with their added mass. None takes
+    /// it away, with all that is in it. Raises InvalidValueError.
     fn set_water(&self, py: Python<'_>, water: &Bound<'_, PyAny>) -> PyResult<()> {
         let parameters = if water.is_none() {
             None
         } else {
-            let plain = py.import("lariat.water")?.getattr("plain")?.call1((water,))?;
+            let plain = py.import("lariat_cables.water")?.getattr("plain")?.call1((water,))?;
             let wrong = |error: serde_json::Error| raise(Raise::new("BuilderError", error.to_string()));
             Some(serde_json::from_value::<Parameters>(data(&plain)?).map_err(wrong)?)
         };
         self.0.compute(py, |contents| contents.set_water(parameters)).map_err(raise)
     }
 
-    /// Puts a dynamic body into the water of the world.
+    /// Puts a dynamic body into the water: buoyancy, the forces of its wave, drag, and added mass.
+    ///
+    /// ``drag_area`` is drag coefficient times area (m^2), ``spin_drag`` the coefficient of the
+    /// quadratic drag of rotation (m^5), both (3,) along the axes of the body, none by default.
+    /// ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere. ``volume``
+    /// (m^3) is by default that of its colliders. The body has now its mass and colliders; call it
+    /// again after they change. Raises NoWaterError, NoBodyError, NotDynamicError, WaterValueError,
+    /// NoVolumeError.
     #[pyo3(signature = (body, drag_area=None, *, spin_drag=None, added_mass=0.0, volume=None))]
     fn immerse(
         &self,
@@ -93,13 +101,15 @@ impl World {
         put.ok_or_else(none)?.map_err(raise)
     }
 
-    /// Takes a body out of the water; returns whether it was in it.
+    /// Takes a body out of the water, with its added mass; returns whether it was in it. Raises
+    /// TypeError for what is no handle.
     fn emerge(&self, py: Python<'_>, body: Handle) -> bool {
         self.0
             .compute(py, |Contents { world, set, .. }| set.water_mut().is_some_and(|water| water.remove(world, body.0)))
     }
 
-    /// Work of the water in J on a body since it is in it; None for one that is not.
+    /// Returns the work of the water in J on a body since it is in it; None for one that is not.
+    /// Raises TypeError for what is no handle.
     fn water_work(&self, py: Python<'_>, body: Handle) -> Option<f64> {
         self.0.with(py, |contents| contents.set.water()?.work(body.0))
     }

@@ -21,7 +21,13 @@ fn options(inertia: f64, friction: f64, turns: f64, brake: f64) -> PyResult<Shea
 
 #[pymethods]
 impl World {
-    /// Lets one cable run into another over a wheel, where ends of both are attached at one point; returns its number.
+    /// Lets the first cable run into the second over a wheel, where an end of each is attached to
+    /// one point of a body. ``inertia``: that of the wheel over the square of its radius, in kg;
+    /// ``friction``: tensions differ by up to exp(friction angle); ``turns``: angle in rad wound
+    /// beyond that between the two; ``brake``: constant friction in N. Both need the integrator
+    /// "discrete-gradient" and one mass per length. Returns the number of the sheave. Raises
+    /// ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError, NoCableError; what
+    /// makes no sheave beyond that is an error of the next step.
     #[pyo3(signature = (first, at, second, second_at, *, inertia=0.0, friction=0.0, turns=0.0, brake=0.0))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn add_sheave(
@@ -47,7 +53,11 @@ impl World {
         added.map_err(raise)
     }
 
-    /// Lets a cable run over an eye at `anchor` of a body (m, body axes), where a point between its ends is; returns its number, and the part of the cable behind it.
+    /// Lets a cable run over an eye at ``anchor`` of a body (m, body axes), within 1 mm of a point
+    /// between its ends; an arc length counts along all :meth:`parts`. Other arguments as in
+    /// :meth:`add_sheave`. Returns the number of the sheave, and the part of the cable behind it.
+    /// Raises GapTooLongError, AlreadyAttachedError, NoBodyError, ReelPlaceError, ReelMethodError,
+    /// NotWithReelError, OutOfRangeError, InvalidValueError, NoCableError; nothing changes then.
     #[pyo3(signature = (cable, at, body, anchor, *, inertia=0.0, friction=0.0, turns=0.0, brake=0.0))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn add_sheave_at(
@@ -74,14 +84,15 @@ impl World {
         Ok((number, Cable::of_world(self.0.clone(), rest)))
     }
 
-    /// The parts of a cable that runs over sheaves along it, from start to end.
+    /// Returns the parts of a cable that runs over sheaves along it, from start to end. Raises
+    /// NoCableError.
     fn parts(&self, py: Python<'_>, cable: &Cable) -> PyResult<Vec<Cable>> {
         let handle = cable.handle_in(&self.0)?;
         let parts = self.0.with(py, |contents| contents.set.parts(handle)).map_err(raise)?;
         Ok(parts.into_iter().map(|part| Cable::of_world(self.0.clone(), part)).collect())
     }
 
-    /// Ends a sheave: what is on its sides stays there.
+    /// Ends a sheave: what is on its sides stays there. Raises NoSheaveError.
     fn remove_sheave(&self, py: Python<'_>, sheave: Which) -> PyResult<()> {
         let removed = self.0.compute(py, |contents| {
             let handle = contents.sheave(&sheave)?;
@@ -90,7 +101,8 @@ impl World {
         removed.map_err(raise)
     }
 
-    /// What a sheave did so far.
+    /// Returns what a sheave did so far, by its number or its name in the scene. Raises
+    /// NoSheaveError.
     fn sheave<'py>(&self, py: Python<'py>, sheave: Which) -> PyResult<Bound<'py, PyAny>> {
         let reading = self.0.with(py, |contents| {
             let handle = contents.sheave(&sheave)?;
@@ -100,7 +112,12 @@ impl World {
         result(py, "SheaveReading", reading.map_err(raise)?)
     }
 
-    /// Winds an end of a cable on a body that turns about an axis in its frame.
+    /// Winds an end of a cable on a dynamic body that turns about ``axis`` (in its frame; positive
+    /// spin pays out): the cable runs at ``radius`` (m), and its pull turns the body. ``stock``:
+    /// largest length in m that can be out; ``inertia``: what the drum carries beside the body's
+    /// own, over the square of the radius, in kg. Needs the integrator "discrete-gradient". Raises
+    /// DrumBodyError, NoBodyError, ReelPlaceError, ReelMethodError, NotWithReelError,
+    /// InvalidValueError, NoCableError; a step raises DrumJoinedError.
     #[pyo3(signature = (cable, at, body, axis, radius, *, stock=None, inertia=0.0))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn add_drum(
@@ -124,7 +141,8 @@ impl World {
         added.map_err(raise)
     }
 
-    /// Ends the drum at an end of a cable; returns whether there was one.
+    /// Ends the drum at an end of a cable: what is out stays. Returns whether there was one. Raises
+    /// NoCableError.
     fn remove_drum(&self, py: Python<'_>, cable: &Cable, at: Place) -> PyResult<bool> {
         let handle = cable.handle_in(&self.0)?;
         let removed = self.0.compute(py, |contents| contents.set.remove_drum(handle, at.0));

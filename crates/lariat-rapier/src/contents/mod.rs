@@ -24,9 +24,9 @@ use crate::handle::{AttachmentHandle, CableHandle, JunctionHandle};
 use crate::water::BodiesInWater;
 use attachment::Attachment;
 use junction::Junction;
-use lariat_ancf::Cable;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::seal::Checksum;
+use lariat_ancf::{At, Cable};
 use mark::WorldMark;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
@@ -181,6 +181,12 @@ impl Contents {
     /// Returns a cable.
     pub fn cable(&self, cable: CableHandle) -> Result<&Cable, Error> {
         self.slot(cable).map(|s| &s.cable).ok_or(Error::NoCable(cable))
+    }
+
+    /// Returns whether a point of a cable is its start, named as such, as a node or by its arc
+    /// length.
+    pub fn is_start(&self, cable: CableHandle, at: At) -> Result<bool, Error> {
+        Ok(self.cable(cable)?.arc_length(at).is_ok_and(|s| s == 0.0))
     }
 
     /// Returns a cable, to change it, and marks it as modified.

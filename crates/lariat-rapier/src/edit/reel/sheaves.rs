@@ -14,7 +14,7 @@ pub(crate) fn add(
     to: (CableHandle, At),
     options: SheaveOptions,
 ) -> Result<SheaveHandle, Error> {
-    let ends = [from, to].map(|(cable, at)| (cable, at == At::Start));
+    let ends = [(from.0, contents.is_start(from.0, from.1)?), (to.0, contents.is_start(to.0, to.1)?)];
     for (i, (cable, at)) in [from, to].into_iter().enumerate() {
         if let Err(error) = contents.cable_mut(cable)?.add_reel(at, Reel::over_sheave()) {
             if i == 1 {

@@ -34,8 +34,9 @@ impl CableSet {
             return Err(Error::DrumBody(drum.body));
         }
         let reel = Reel { feed: Reel::on_drum().feed, ..reel };
+        let start = self.contents.is_start(cable, at)?;
         self.contents.cable_mut(cable)?.add_reel(at, reel)?;
-        self.contents.drums.push(Wound { cable, start: at == At::Start, drum });
+        self.contents.drums.push(Wound { cable, start, drum });
         self.contents.changed = true;
         Ok(())
     }
@@ -46,8 +47,7 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoCable`].
     pub fn remove_drum(&mut self, cable: CableHandle, at: impl Into<At>) -> Result<Option<Drum>, Error> {
-        self.contents.cable(cable)?;
-        let start = at.into() == At::Start;
+        let start = self.contents.is_start(cable, at.into())?;
         let mut removed = None;
         drums::remove_where(&mut self.contents, |wound| {
             let here = (wound.cable, wound.start) == (cable, start);

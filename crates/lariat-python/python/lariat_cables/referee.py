@@ -7,8 +7,6 @@ Scenarios with contact are stepped by fidelity game, which is the one that has c
 
 - rods that touch each other alone: that of the other adapters, proportional to mass, critical at the slowest mode; between two steps of
   dt the rates are taken times exp(-c dt). When all are at rest, the rest of the frames are that state.
-- rods of which an end slides: it is clamped to a body of a thousandth of the rod's mass on a slider of a world, whose loads are those of the end. Internal
-  damping, critical at the lowest axial mode along the rod and at the slowest mode in bending.
 - rods on obstacles: internal damping, critical at the lowest axial mode, which cannot hold a rope that slides.
 """
 
@@ -21,8 +19,8 @@ from cosseratbench.scenario import End, EndCondition, Rod, Scenario  # type: ign
 from cosseratbench.solver import Diverged  # type: ignore[import-untyped, unused-ignore]
 from cosseratbench.trajectory import Trajectory  # type: ignore[import-untyped, unused-ignore]
 
-import lariat
-from lariat.types import Array, Fidelity, Place
+import lariat_cables as lariat
+from lariat_cables.types import Array, Fidelity, Place
 
 ENDS: tuple[tuple[End, Place], ...] = ((End.START, "start"), (End.END, "end"))
 REST = 1e-4
@@ -76,21 +74,16 @@ class LariatSolver:
             raise NotImplementedError("the larger of two coefficients of friction of rods that touch: Lariat takes the mean")
         if scenario.quasi_static and not touches(scenario) and any(_motions(rod) for rod in scenario.rods):
             raise NotImplementedError("driven ends of rods in equilibrium that touch nothing")
+        if any(motion.slides_along is not None for rod in scenario.rods for motion in _motions(rod)):
+            raise NotImplementedError("ends that slide")
         self.rests = False
         cables = [self._cable(rod, scenario, n_elements) for rod in scenario.rods]
         step, steps = self._step(scenario, n_frames)
-        world = None
-        if any(motion.slides_along is not None for rod in scenario.rods for motion in _motions(rod)):
-            world, cables = _on_sliders(cables, scenario, step)
         frames = [[cable.positions] for cable in cables]
         twists = [[_twist(cable)] for cable in cables]
         try:
             for _ in range(n_frames - 1):
-                if world is None:
-                    self._advance(cables, scenario, step, steps)
-                else:
-                    for _ in range(steps):
-                        world.step()
+                self._advance(cables, scenario, step, steps)
                 for cable, path, twist in zip(cables, frames, twists):
                     path.append(cable.positions)
                     twist.append(_twist(cable))
@@ -143,8 +136,6 @@ class LariatSolver:
         if scenario.quasi_static and touches(scenario):
             wave_speed = float(np.sqrt(section.axial_stiffness / section.mass_per_length))
             damping = lariat.Damping.from_ratio(1.0, np.pi * wave_speed / rod.length)
-            if any(motion.slides_along is not None for motion in _motions(rod)):
-                damping = lariat.Damping(damping.axial, 2.0 / scenario.slowest_frequency())
             effects.append(damping)
         if any(np.any(motion.rotation) for motion in _motions(rod)):
             preset = "game"
@@ -160,9 +151,7 @@ class LariatSolver:
             elif rod.condition(end) is EndCondition.CLAMPED:
                 cable.clamp(at)
         for load in rod.loads:
-            motion = rod.motion(load.at)
-            if motion is None or motion.slides_along is None:
-                cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
+            cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
         return cable
 
 
@@ -189,34 +178,6 @@ def _torsion(rod: Rod, slopes: Array) -> lariat.Torsion:
 def _twist(cable: lariat.Cable) -> float:
     """Returns the twist in rad of a cable between its ends; 0 without torsion."""
     return sum(reading.twist for reading in cable.torsion())
-
-
-def _on_sliders(cables: list[lariat.Cable], scenario: Scenario, step: float) -> tuple[lariat.World, list[lariat.Cable]]:
-    """Returns a world with the rods, whose ends that slide are clamped to bodies on sliders."""
-    if scenario.obstacles:
-        raise NotImplementedError("ends that slide, beside obstacles")
-    world = lariat.World(scenario.gravity, dt=step, sleep_speed=0.0)
-    held = world.add_body(lariat.RigidBody.fixed())
-    inside = [world.add_cable(cable) for cable in cables]
-    for cable, rod in zip(inside, scenario.rods):
-        for end, at in ENDS:
-            motion = rod.motion(end)
-            if motion is None:
-                continue
-            if motion.slides_along is None or np.any(motion.displacement):
-                raise NotImplementedError("ends that are led, beside ends that slide")
-            place = cable.positions[0 if end is End.START else -1]
-            mass = 1e-3 * rod.material.density * rod.area * rod.length
-            builder = lariat.RigidBody.dynamic(translation=place, gravity_scale=0.0, can_sleep=False)
-            body = world.add_body(builder, [lariat.Collider.ball(rod.radius, mass=mass, sensor=True)])
-            joint = lariat.PrismaticJoint.builder(motion.axis.tolist(), local_anchor1=place, local_anchor2=[0.0, 0.0, 0.0])
-            world.multibody_joints.insert(held, body, joint)
-            cable.release(at)
-            world.attach(cable, at, body, kind="clamp")
-            for load in rod.loads:
-                if load.at is end:
-                    world.rigid_bodies[body].add_force(load.force)
-    return world, inside
 
 
 def touches(scenario: Scenario) -> bool:

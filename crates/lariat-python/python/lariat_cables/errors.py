@@ -121,6 +121,10 @@ class EmptyRestPieceError(Error, ValueError):
     """A piece of a rest shape that covers no element: from."""
 
 
+class AmbiguousPlaceError(Error, TypeError):
+    """An integer as a point of a cable: it could be a node, or a number of metres."""
+
+
 class UnknownPlaceError(Error, ValueError):
     """A text that is no point of a cable."""
 

@@ -44,9 +44,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lariat import errors
-from lariat._lariat import CoSimulation
-from lariat.results import EndForces
+from lariat_cables import errors
+from lariat_cables._lariat import CoSimulation
+from lariat_cables.results import EndForces
 
 Array = NDArray[np.float64]
 

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from lariat_cables.node import Node
+
 if TYPE_CHECKING:
-    from lariat import Cable, Section
+    from lariat_cables import Cable, Section
 
 Array = NDArray[np.float64]
 
@@ -50,10 +52,38 @@ class Samples(NamedTuple):
     tension_uncertainty: Array
 
 
+class States(NamedTuple):
+    """States of several cables; a cable with fewer nodes than another has NaN beyond its own."""
+
+    coordinates: Array
+    """Nodal coordinates, shape (cables, nodes, 6): position in m and slope."""
+    rates: Array
+    """Rates of the nodal coordinates, shape (cables, nodes, 6): m/s and 1/s."""
+    time: Array
+    """Times in s, shape (cables,)."""
+    nodes: NDArray[np.int64]
+    """Numbers of nodes, shape (cables,)."""
+
+    @property
+    def positions(self) -> Array:
+        """Positions of the nodes in m, shape (cables, nodes, 3): a view."""
+        return self.coordinates[:, :, :3]
+
+    @property
+    def slopes(self) -> Array:
+        """Slope vectors dr/ds of the nodes, shape (cables, nodes, 3): a view."""
+        return self.coordinates[:, :, 3:]
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the nodes in m/s, shape (cables, nodes, 3): a view."""
+        return self.rates[:, :, :3]
+
+
 class Reaction(NamedTuple):
     """What a support does to the cable."""
 
-    node: int
+    node: Node
     force: Array
     """In N."""
     moment: Array
@@ -63,7 +93,7 @@ class Reaction(NamedTuple):
 class Twist(NamedTuple):
     """Torsion of a cable between two neighbouring clamps that hold its spin."""
 
-    nodes: tuple[int, int]
+    nodes: tuple[Node, Node]
     twist: float
     """In rad, right-handed positive, whole turns included."""
     torque: float
@@ -338,6 +368,6 @@ class RigidBodyHandle(NamedTuple):
 
 def section(axial: float, bending: float, mass: float, diameter: float | None, outer_area: float | None) -> Section:
     """Restores a pickled section."""
-    from lariat import Section
+    from lariat_cables import Section
 
     return Section(axial, bending, mass, diameter=diameter, outer_area=outer_area)

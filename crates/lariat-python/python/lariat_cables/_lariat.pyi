@@ -5,12 +5,13 @@ from typing import Any, Literal, final, overload
 from numpy.typing import ArrayLike
 from typing_extensions import Self
 
-from lariat.bodies import ColliderBuilder, RigidBody, RigidBodyBuilder, RigidBodySet
-from lariat.contact import Obstacle
-from lariat.effects import Contact, Damping, Effects
-from lariat.joints import ImpulseJointSet, MultibodyJointSet
-from lariat.reel import Reel
-from lariat.results import (
+from lariat_cables.bodies import ColliderBuilder, RigidBody, RigidBodyBuilder, RigidBodySet
+from lariat_cables.contact import Obstacle
+from lariat_cables.effects import Contact, Damping, Effects
+from lariat_cables.joints import ImpulseJointSet, MultibodyJointSet
+from lariat_cables.node import Node
+from lariat_cables.reel import Reel
+from lariat_cables.results import (
     Attachment,
     Break,
     CableTouch,
@@ -30,13 +31,14 @@ from lariat.results import (
     Rope,
     Sample,
     Samples,
+    States,
     Touch,
     Twist,
     WorldEnergy,
     WorldEquilibrium,
 )
-from lariat.types import Array, Fidelity, Handle, Place
-from lariat.water import Water
+from lariat_cables.types import Array, Fidelity, Handle, Place, Points
+from lariat_cables.water import Water
 
 VERSION: str
 
@@ -129,13 +131,14 @@ class Integrator:
 class Cable:
     """A cable of ANCF elements with its rule, integrator and state.
 
-    A point of a cable is "start", "end", a node (int) or an arc length of the unstretched cable in m (float). Arrays are copies. Any
-    number of threads may use a cable: they wait for each other, and other threads run Python while it is stepped.
+    A point of a cable is "start", "end", an arc length of the unstretched cable in m from its start (float), or a ``lariat.Node``; another
+    integer than 0 could be either, and raises AmbiguousPlaceError. Arrays are copies. Any number of threads may use a cable: they wait for
+    each other, and other threads run Python while it is stepped.
     """
 
     def __new__(
         cls,
-        points: ArrayLike,
+        points: Points,
         section: Section | Iterable[tuple[float, Section]],
         *,
         length: float | None = None,
@@ -208,7 +211,7 @@ class Cable:
 
     @property
     def time(self) -> float:
-        """Time of the state in s. Set: prescribed motions and ramps keep their distance from it."""
+        """Time of the state in s. Set: prescribed motions and ramps keep their distance from it; raises InWorldError, InvalidValueError."""
 
     @time.setter
     def time(self, value: float) -> None: ...
@@ -246,13 +249,14 @@ class Cable:
     def integrator(self, value: Integrator | Fidelity) -> None: ...
     @property
     def gravity(self) -> Array:
-        """Gravity in m/s^2, shape (3,)."""
+        """Gravity in m/s^2, shape (3,). Set: raises ShapeError, InvalidValueError."""
 
     @gravity.setter
     def gravity(self, value: ArrayLike) -> None: ...
     @property
     def effects(self) -> dict[str, Any]:
-        """Effects that are on, by key. Set to an effect, a list of them or a dict: replaces all."""
+        """Effects that are on, by key. Set to an effect, a list of them or a dict: replaces all; raises EffectsError, MissingForEffectError,
+        ExplicitDampingError."""
 
     @effects.setter
     def effects(self, value: Effects) -> None: ...
@@ -284,13 +288,15 @@ class Cable:
         anew, and the depth at which the cable is set gives no force. ``restore`` keeps them. Raises ShapeError, InvalidValueError."""
 
     def set_rigid_motion(self, velocity: ArrayLike, angular_velocity: ArrayLike | None = None) -> None:
-        """Sets the velocities of a rigid motion: ``velocity`` (m/s) of the start, ``angular_velocity`` (rad/s) about it."""
+        """Sets the velocities of a rigid motion: ``velocity`` (m/s) of the start, ``angular_velocity`` (rad/s) about it. Raises ShapeError,
+        InvalidValueError."""
 
     @overload
-    def sample(self, s: float) -> Sample: ...
+    def sample(self, at: Place) -> Sample: ...  # type: ignore[overload-overlap]
     @overload
-    def sample(self, s: ArrayLike) -> Samples:
-        """Reads the cable at one arc length (m), or at an array of shape (n,). Raises OutOfRangeError, ShapeError."""
+    def sample(self, at: Sequence[Place] | Array) -> Samples:
+        """Reads the cable at one point, or at several: a sequence of points, or an array of arc lengths in m of shape (n,). Raises
+        OutOfRangeError, ShapeError, AmbiguousPlaceError."""
 
     def warnings(self) -> list[str]:
         """Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps."""
@@ -322,10 +328,10 @@ class Cable:
     def diagnostics(self) -> dict[str, Any]:
         """Returns counts of steps, iterations and evaluations."""
 
-    def node(self, at: Place) -> int:
-        """Returns the number of the node at a point. Raises OutOfRangeError, NoNodeError."""
+    def node(self, at: Place) -> Node:
+        """Returns the node at a point. Raises OutOfRangeError, NoNodeError."""
 
-    def insert_node(self, at: Place) -> int:
+    def insert_node(self, at: Place) -> Node:
         """Returns the node at a point, and places one if there is none. Raises OutOfRangeError, InWorldError."""
 
     def fix(self, at: Place) -> None:
@@ -340,18 +346,19 @@ class Cable:
 
     def prescribe(self, at: Place, position: ArrayLike, duration: float, velocity: ArrayLike | None = None) -> None:
         """Prescribes the position of a node: the cubic from where it is, at its present velocity, to ``position`` (m) at ``velocity``
-        (m/s; default 0) a time ``duration`` (s) later; then it is held there. ``restore`` restores it."""
+        (m/s; default 0) a time ``duration`` (s) later; then it is held there. ``restore`` restores it. Raises OutOfRangeError, NoNodeError,
+        ShapeError, InvalidValueError."""
 
     def add_load(
         self,
-        s: float,
+        at: Place,
         force: ArrayLike | None = None,
         *,
         moment: ArrayLike | None = None,
         ramp: float = 0.0,
         history: Sequence[tuple[float, float]] | None = None,
     ) -> None:
-        """Adds a force (N) and moment (N m) in world axes at an arc length (m), ramped over ``ramp`` s, times the factor of ``history``:
+        """Adds a force (N) and moment (N m) in world axes at a point, ramped over ``ramp`` s, times the factor of ``history``:
         rows of seconds from now and factor, linear between them, constant outside. Raises OutOfRangeError, InvalidValueError."""
 
     def clear_loads(self) -> None:
@@ -364,7 +371,8 @@ class Cable:
     def redefine(
         self, *, rule: str | None = None, effects: Effects = None, integrator: Integrator | Fidelity | None = None
     ) -> None:
-        """Replaces rule, effects and integrator together, where one needs the other."""
+        """Replaces rule, effects and integrator together, where one needs the other. Raises UnknownRuleError, RankDeficientError,
+        EffectsError, MissingForEffectError, ExplicitDampingError; the cable is then as it was."""
 
     def cut(self, at: Place) -> Cable:
         """Cuts the cable; this one keeps the part before the point, the other is returned. Raises OutOfRangeError, InWorldError."""
@@ -389,19 +397,19 @@ class Cable:
         """Changes what the reel at an end does from now on. Raises ReelPlaceError, ReelMethodError, InvalidValueError, BuilderError."""
 
     def set_reel_length(self, at: Place, length: float, rate: float) -> None:
-        """Lets the reel at an end come to a length of cable (m) that is out, with at most a rate (m/s), and stop there."""
+        """Lets the reel at an end come to a length of cable (m) that is out, with at most a rate (m/s), and stop there. Raises as ``set_reel``."""
 
     def set_reel_rate(self, at: Place, rate: float) -> None:
         """Changes the rate of the reel at an end in m/s: positive pays out. Raises as ``set_reel``."""
 
     def remove_reel(self, at: Place) -> None:
-        """Takes the reel at an end away; what is out stays. Does nothing without a reel."""
+        """Takes the reel at an end away; what is out stays. Does nothing without a reel. Raises UnknownPlaceError."""
 
     def reel(self, at: Place) -> ReelReading | None:
-        """Returns what the reel at an end does now; None without one."""
+        """Returns what the reel at an end does now; None without one. Raises UnknownPlaceError."""
 
     def reel_description(self, at: Place) -> Reel | None:
-        """Returns the reel at an end as it was described; None without one."""
+        """Returns the reel at an end as it was described; None without one. Raises UnknownPlaceError."""
 
     def set_strength(self, tension: float | None = None, *, strain: float | None = None) -> None:
         """Sets the tension in N and the strain above which ``break_overloaded`` breaks the cable; None: no limit. Raises InvalidValueError,
@@ -411,9 +419,12 @@ class Cable:
         """Breaks the cable at the inner node that exceeds its strength most; this one keeps the part before it. Returns the part behind it
         and why it broke, or None if it holds. Raises InWorldError."""
 
-def step_all(cables: Sequence[Cable], dt: float) -> None:
-    """Advances cables that nothing connects by ``dt`` (s), on all threads; raises the error of the first that cannot step, after all others
-    have advanced. Raises DuplicateCableError."""
+def step_all(cables: Sequence[Cable], dt: float, *, steps: int = 1) -> States:
+    """Advances cables that nothing connects by ``steps`` steps of ``dt`` (s), on all threads, and returns their states as arrays. Raises
+    StepFailedError, that of the first cable that cannot step, after all others have made that step; DuplicateCableError, InWorldError."""
+
+def states(cables: Sequence[Cable]) -> States:
+    """Returns the states of cables as arrays, without a step; cables of worlds, too. Raises NoCableError."""
 
 def step_together(cables: Sequence[Cable], dt: float, *, steps: int = 1) -> None:
     """Advances cables that may touch each other (``Contact(cables=True)``) by ``steps`` steps of ``dt`` (s), in one system, with the integrator of
@@ -426,7 +437,7 @@ def rope_kinds() -> list[str]:
     """Returns the names of the kinds of rope, by which damping is named."""
 
 def recommended_elements(fidelity: Fidelity = "engineering") -> int:
-    """Returns the number of elements that a fidelity recommends."""
+    """Returns the number of elements that a fidelity recommends. Raises UnknownFidelityError."""
 
 @final
 class CoSimulation:
@@ -465,7 +476,7 @@ class CoSimulation:
     def impedance(self, dt: float) -> Array:
         """Returns Z, shape (6 ends, 6 ends), velocity before angular velocity of each end, about the reference points, in kg, kg m and
         kg m^2: if the velocities at the end of a step of ``dt`` (s) differ by dv from the prescribed ones, the impulse on the bodies differs by
-        -Z dv."""
+        -Z dv. Raises InvalidValueError."""
 
     def snapshot(self) -> bytes:
         """Returns the state of cable and ends, for ``restore``."""
@@ -565,16 +576,16 @@ class World:
         *,
         exclude_rigid_body: Handle | None = None,
     ) -> tuple[ColliderHandle, RayIntersection] | None:
-        """As ``cast_ray``, with the normal."""
+        """As ``cast_ray``, with the normal. Raises InvalidValueError."""
 
     def project_point(
         self, point: ArrayLike, solid: bool = True, *, max_dist: float = 1e15, exclude_rigid_body: Handle | None = None
     ) -> tuple[ColliderHandle, PointProjection] | None:
         """Returns the collider nearest to a point (m) within ``max_dist``, and its nearest point; None if there is none. With ``solid`` a
-        point inside is its own projection."""
+        point inside is its own projection. Raises ShapeError, InvalidValueError."""
 
     def intersect_point(self, point: ArrayLike, *, exclude_rigid_body: Handle | None = None) -> list[ColliderHandle]:
-        """Returns the colliders that contain a point (m)."""
+        """Returns the colliders that contain a point (m). Raises ShapeError, InvalidValueError."""
 
     def set_contact(self, cable: Cable, contact: Contact | None) -> None:
         """Lets a cable touch the colliders, and other cables and itself if the contact says so, or no longer with None; it gets the integrator "discrete-gradient" if nobody chose one. Raises
@@ -590,17 +601,17 @@ class World:
         restitution_combine_rule: Literal["average", "min", "multiply", "max"] = "average",
     ) -> None:
         """Sets the groups of a cable as bits (memberships, filter), None: all; and how its friction and restitution are combined
-        with those of colliders."""
+        with those of colliders. Raises OtherWorldError, NoCableError."""
 
     def contacts(self, cable: Cable) -> list[Touch]:
-        """Returns what a cable touched at the end of the last step, each with its collider."""
+        """Returns what a cable touched at the end of the last step, each with its collider. Raises OtherWorldError, NoCableError."""
 
     def cable_contacts(self, cable: Cable) -> list[CableTouch]:
         """Returns what a cable touched of others and of itself at the end of the last step, if its contact says that it may. Raises
         NoCableError."""
 
     def add_cable(self, cable: Cable) -> Cable:
-        """Adds a copy of a cable, and returns it as a part of this world."""
+        """Adds a copy of a cable, and returns it as a part of this world. Raises NoCableError for one that was removed from its world."""
 
     @property
     def cables(self) -> list[Cable]:
@@ -738,7 +749,7 @@ class World:
         Worth a look when a world has been built."""
 
     def is_asleep(self, cable: Cable) -> bool:
-        """Returns whether a cable is asleep with the bodies attached to it."""
+        """Returns whether a cable is asleep with the bodies attached to it. Raises OtherWorldError, NoCableError."""
 
     def events(self) -> list[Event]:
         """Returns the events of the last step."""
@@ -770,10 +781,10 @@ class World:
         NoWaterError, NoBodyError, NotDynamicError, WaterValueError, NoVolumeError."""
 
     def emerge(self, body: Handle) -> bool:
-        """Takes a body out of the water, with its added mass; returns whether it was in it."""
+        """Takes a body out of the water, with its added mass; returns whether it was in it. Raises TypeError for what is no handle."""
 
     def water_work(self, body: Handle) -> float | None:
-        """Returns the work of the water in J on a body since it is in it; None for one that is not."""
+        """Returns the work of the water in J on a body since it is in it; None for one that is not. Raises TypeError for what is no handle."""
 
     @property
     def time(self) -> float:
@@ -781,22 +792,30 @@ class World:
 
     @property
     def dt(self) -> float:
-        """The host step in s."""
+        """The host step in s. Set: raises InvalidValueError."""
 
     @dt.setter
     def dt(self, value: float) -> None: ...
     @property
     def gravity(self) -> Array:
-        """Gravity in m/s^2, shape (3,)."""
+        """Gravity in m/s^2, shape (3,). Set: raises ShapeError, InvalidValueError."""
 
     @gravity.setter
     def gravity(self, value: ArrayLike) -> None: ...
     def snapshot(self) -> bytes:
-        """Returns bodies and cables; ``restore`` continues the run bitwise. Pickle uses it."""
+        """Returns bodies and cables, for ``restore``."""
+
+    def restore(self, snapshot: bytes) -> None:
+        """Restores bodies and cables of a snapshot of the same version; the run continues bitwise from there. Cables and handles of what is
+        in it stay valid; those of what was added since raise NoCableError, NoBodyError. Raises FormatError, after which all is as
+        before."""
+
+    def to_bytes(self) -> bytes:
+        """Returns bodies and cables; ``from_bytes`` continues the run bitwise. Pickle uses it."""
 
     @staticmethod
-    def restore(bytes: bytes) -> World:
-        """Returns a saved world of the same version. Raises FormatError."""
+    def from_bytes(bytes: bytes) -> World:
+        """Returns a saved world of the same version, from ``to_bytes`` or ``snapshot``. Raises FormatError."""
 
     def _add_body(self, body: dict[str, Any], colliders: Sequence[dict[str, Any]]) -> tuple[int, int]: ...
     def _add_collider(self, collider: dict[str, Any], body: Handle | None) -> tuple[int, int]: ...
@@ -815,6 +834,11 @@ class Recorded:
     def page(self) -> str: ...
     def svg(self) -> str: ...
     def usd(self) -> str: ...
+
+@final
+class Stop:
+    def __new__(cls) -> Self: ...
+    def set(self) -> None: ...
 
 @final
 class Film:
@@ -843,6 +867,9 @@ def run_scene(
 ) -> tuple[dict[str, Any], Mapping[str, tuple[list[str], Array]], Any, Recorded]: ...
 def sweep_check(file: str, text: str, points: list[list[str]]) -> None: ...
 def sweep_row(file: str, text: str, settings: list[str]) -> str: ...
+def sweep_run(
+    file: str, text: str, settings: list[str], stop: Stop
+) -> tuple[str, tuple[dict[str, Any], Mapping[str, tuple[list[str], Array]], Any, Recorded] | None]: ...
 def sweep_done(file: str, text: str, points: list[list[str]], out: str | PathLike[str]) -> list[str | None]: ...
 def sweep_append(file: str, text: str, row: str, out: str | PathLike[str]) -> None: ...
 def sweep_table(rows: list[str], out: str | PathLike[str]) -> None: ...

@@ -13,9 +13,9 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lariat import _lariat
-from lariat._lariat import Cable, CoSimulation, World
-from lariat.scenes import Probe
+from lariat_cables import _lariat
+from lariat_cables._lariat import Cable, CoSimulation, World
+from lariat_cables.scenes import Probe
 
 Array = NDArray[np.float64]
 Recorded = Union[World, Cable, CoSimulation, Sequence[Cable]]
@@ -210,7 +210,7 @@ def record(what: Recorded, *, name: str = "recording", probes: Mapping[str, Call
 
     ``probes`` are functions without arguments that return a number or an array, always of one size: they are called at each ``take``, and plotted.
 
-    >>> import lariat
+    >>> import lariat_cables as lariat
     >>> rope = lariat.Cable([[0, 0, 0], [1, 0, 0]], lariat.Section(1e5, 0.1, 0.1), fix="start", fidelity="game")
     >>> recording = lariat.record(rope, probes={"tip height": lambda: rope.positions[-1, 1]})
     >>> for _ in range(30):

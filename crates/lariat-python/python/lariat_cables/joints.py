@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
-from lariat.bodies import _Builder
-from lariat.errors import BuilderError
-from lariat.results import ImpulseJointHandle, MultibodyJointHandle, RigidBodyHandle
-from lariat.types import Handle
+from lariat_cables.bodies import _Builder
+from lariat_cables.errors import BuilderError
+from lariat_cables.results import ImpulseJointHandle, MultibodyJointHandle, RigidBodyHandle
+from lariat_cables.types import Handle
 
 if TYPE_CHECKING:
-    from lariat import World
+    from lariat_cables import World
 
 
 class JointBuilder(_Builder):
@@ -177,7 +177,7 @@ class MultibodyJointSet:
 
 
 def _bodies(world: World, handle: Handle, multibody: bool) -> tuple[RigidBodyHandle, RigidBodyHandle]:
-    from lariat.errors import NoJointError
+    from lariat_cables.errors import NoJointError
 
     for joint, first, second in world._joints(multibody):
         if joint == tuple(handle):

@@ -2,7 +2,7 @@
 
 import sys
 
-from lariat import _lariat
+from lariat_cables import _lariat
 
 
 def main() -> None:

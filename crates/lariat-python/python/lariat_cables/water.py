@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from lariat.effects import Flow
+from lariat_cables.effects import Flow
 
 Vector = Sequence[float]
 

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lariat._lariat import CoSimulation
-from lariat.errors import ResultWarning
-from lariat.exchange import EndMotion, Exchange, Exchanged
+from lariat_cables._lariat import CoSimulation
+from lariat_cables.errors import ResultWarning
+from lariat_cables.exchange import EndMotion, Exchange, Exchanged
 
 Array = NDArray[np.float64]
 

@@ -197,7 +197,7 @@ class AxialLaw:
     key: ClassVar[str] = "axial_law"
 
 
-Effect = Union[GravityScale, Buoyancy, AxialLaw, Damping, Drag, LineLoad, RestShape, Torsion]
+Effect = Union[GravityScale, Buoyancy, AxialLaw, Contact, Damping, Drag, LineLoad, RestShape, Torsion]
 Effects = Union[Effect, Iterable[Effect], Mapping[str, Any], None]
 
 
@@ -257,7 +257,7 @@ def collect(effects: Effects) -> dict[str, Any]:
         if effect.key == "line_load":
             plain.setdefault("line_load", []).append(_plain(effect))
         elif effect.key in plain:
-            from lariat.errors import EffectsError
+            from lariat_cables.errors import EffectsError
 
             raise EffectsError(f"effects: {effect.key} is given twice")
         else:

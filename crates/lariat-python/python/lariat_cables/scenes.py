@@ -13,9 +13,9 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from lariat import _lariat
-from lariat._lariat import World
-from lariat.errors import ReadError, ResultWarning
+from lariat_cables import _lariat
+from lariat_cables._lariat import World
+from lariat_cables.errors import ReadError, ResultWarning
 
 Array = NDArray[np.float64]
 SceneLike = Union[str, "PathLike[str]", Mapping[str, Any]]

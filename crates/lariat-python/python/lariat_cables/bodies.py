@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lariat.errors import BuilderError
-from lariat.results import ColliderHandle, RigidBodyHandle
+from lariat_cables.errors import BuilderError
+from lariat_cables.results import ColliderHandle, RigidBodyHandle
 
 if TYPE_CHECKING:
-    from lariat import World
+    from lariat_cables import World
 
 Array = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 You give Young's modulus, density and cross-section; Lariat computes motion, tension and bending moment.
 
->>> import lariat
+>>> import lariat_cables as lariat
 >>> rope = lariat.Cable([[0, 0, 0], [2.5, 0, 0]], lariat.Section(1.6e6, 0.5, 0.14), length=3.0, elements=20, fix=["start", "end"])
 >>> report = rope.equilibrium()
 >>> round(-rope.sample(1.5).position[1], 2)
@@ -11,9 +11,9 @@ You give Young's modulus, density and cross-section; Lariat computes motion, ten
 All numbers are in SI units. Arrays are NumPy's, of float64; they are copies, which a later step does not change.
 """
 
-from lariat import bodies, effects, errors, results
-from lariat._lariat import VERSION as __version__
-from lariat._lariat import (
+from lariat_cables import bodies, effects, errors, results
+from lariat_cables._lariat import VERSION as __version__
+from lariat_cables._lariat import (
     Cable,
     CoSimulation,
     Integrator,
@@ -22,20 +22,22 @@ from lariat._lariat import (
     integrators,
     recommended_elements,
     rope_kinds,
+    states,
     step_all,
     step_together,
 )
-from lariat.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
-from lariat.contact import Obstacle
-from lariat.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, MotorCourse, RestPiece, RestShape, Torsion
-from lariat.errors import Error
-from lariat.exchange import EndMotion, Exchange, Exchanged
-from lariat.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
-from lariat.recording import Recording, Track, record
-from lariat.reel import Reel
-from lariat.scenes import Probe, Run, import_mjcf, keys, load, rules, run, statics
-from lariat.sweeps import Sweep, sweep
-from lariat.water import Water, Wave
+from lariat_cables.bodies import Collider, ColliderBuilder, RigidBody, RigidBodyBuilder
+from lariat_cables.contact import Obstacle
+from lariat_cables.effects import AxialLaw, Buoyancy, Contact, Damping, Drag, Flow, GravityScale, LineLoad, Motor, MotorCourse, RestPiece, RestShape, Torsion
+from lariat_cables.errors import Error
+from lariat_cables.exchange import EndMotion, Exchange, Exchanged
+from lariat_cables.joints import FixedJoint, PrismaticJoint, RevoluteJoint, RopeJoint, SphericalJoint, SpringJoint
+from lariat_cables.node import Node
+from lariat_cables.recording import Recording, Track, record
+from lariat_cables.reel import Reel
+from lariat_cables.scenes import Probe, Run, import_mjcf, keys, load, rules, run, statics
+from lariat_cables.sweeps import Sweep, sweep
+from lariat_cables.water import Water, Wave
 
 __all__ = [
     "AxialLaw",
@@ -58,6 +60,7 @@ __all__ = [
     "LineLoad",
     "Motor",
     "MotorCourse",
+    "Node",
     "Obstacle",
     "PrismaticJoint",
     "Probe",
@@ -93,6 +96,7 @@ __all__ = [
     "rope_kinds",
     "rules",
     "run",
+    "states",
     "statics",
     "step_all",
     "step_together",

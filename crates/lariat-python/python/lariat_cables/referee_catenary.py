@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-import lariat
-from lariat.types import Array
+import lariat_cables as lariat
+from lariat_cables.types import Array
 
 POINTS = 20_001
 FLEXIBLE = 1e-4

@@ -1,6 +1,6 @@
 """The falling pendulum by Lariat and by Exudyn, in one run: error against processor time. ``referee_page`` writes it into its page.
 
-    python -m lariat.referee_exudyn
+    python -m lariat_cables.referee_exudyn
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-import lariat
-from lariat.types import Array
+import lariat_cables as lariat
+from lariat_cables.types import Array
 
 ELEMENTS = 10
 FRAME, FRAMES = 0.01, 200
