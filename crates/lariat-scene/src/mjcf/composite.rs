@@ -122,10 +122,10 @@ impl Importer {
             _ => return Err(geom.wrong("needs a mass or a density > 0")),
         };
         let mut density = mass / (section.area * length);
-        if let (None, Some(given)) = (geom.number("mass")?, geom.number("density")?.or(Some(1000.0))) {
-            if (density / given - 1.0).abs() < 1e-9 {
-                density = given;
-            }
+        if let (None, Some(given)) = (geom.number("mass")?, geom.number("density")?.or(Some(1000.0)))
+            && (density / given - 1.0).abs() < 1e-9
+        {
+            density = given;
         }
         let young = config.young;
         let solid = spring == 0.0 && geom.number("mass")?.is_none();

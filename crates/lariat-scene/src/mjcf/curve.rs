@@ -96,8 +96,7 @@ mod tests {
     #[test]
     fn a_line_has_no_curve_and_a_helix_no_plane() {
         assert!(through(&[Vector3::zeros(), Vector3::x(), 3.0 * Vector3::x()]).is_none());
-        let helix: Vec<Vector3<f64>> =
-            (0..9).map(|k| f64::from(k)).map(|t| Vector3::new(t.cos(), t.sin(), 0.5 * t)).collect();
+        let helix: Vec<Vector3<f64>> = (0..9).map(f64::from).map(|t| Vector3::new(t.cos(), t.sin(), 0.5 * t)).collect();
         assert!(!through(&helix).unwrap().plane);
     }
 }

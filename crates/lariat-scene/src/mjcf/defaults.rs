@@ -92,7 +92,7 @@ fn merge(
     let turned = TURNS.iter().any(|key| element.has(key));
     for (key, value) in class.get(kind.unwrap_or(&element.name)).into_iter().flatten() {
         let drawn = element.name == "fixed" && ["material", "width"].contains(&key.as_str());
-        if !element.has(key) && !drawn && !(turned && TURNS.contains(&key.as_str())) {
+        if !(element.has(key) || drawn || turned && TURNS.contains(&key.as_str())) {
             element.attributes.push((key.clone(), value.clone()));
         }
     }

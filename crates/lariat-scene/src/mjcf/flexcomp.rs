@@ -58,7 +58,9 @@ impl Importer {
         if let Some(edge) = edge.filter(|edge| edge.attribute("equality").is_some_and(|value| value != "false")) {
             return Err(edge.wrong("equality: edges of one length, beside a stiffness, are no material: write false"));
         }
-        if chords.iter().any(|chord| !((chord - chords[0]).abs() <= 1e-6 * chords[0])) || chords[0] <= 0.0 {
+        if chords.iter().any(|chord| !chord.is_finite() || (chord - chords[0]).abs() > 1e-6 * chords[0])
+            || chords[0] <= 0.0
+        {
             return Err(node.wrong("edges of different length: one stiffness for all is no material"));
         }
         let mass = node.number("mass")?.unwrap_or(1.0);

@@ -56,9 +56,12 @@ fn path_of(node: Node<'_, '_>) -> String {
     }
 }
 
+/// A path, an attribute with its value, and a child, as [`edited`] has them.
+type Edit<'a> = (&'a str, Option<(&'a str, &'a str)>, &'a str);
+
 /// Writes the base with an attribute set, a child added, or both, in the first element of a path.
 fn edited(path: &str, attribute: Option<(&str, &str)>, child: &str) -> Option<String> {
-    fn write(node: Node<'_, '_>, edit: &mut Option<(&str, Option<(&str, &str)>, &str)>, text: &mut String) {
+    fn write(node: Node<'_, '_>, edit: &mut Option<Edit<'_>>, text: &mut String) {
         let name = node.tag_name().name();
         let here = edit.take_if(|(path, ..)| path_of(node) == *path && name != "worldbody");
         let (_, attribute, child) = here.unwrap_or(("", None, ""));
@@ -71,7 +74,7 @@ fn edited(path: &str, attribute: Option<(&str, &str)>, child: &str) -> Option<St
         }
         text.push('>');
         node.children().filter(Node::is_element).for_each(|node| write(node, edit, text));
-        let _ = write!(text, "{child}</{name}>\n");
+        let _ = writeln!(text, "{child}</{name}>");
     }
     let document = Document::parse(BASE).unwrap();
     let mut edit = Some((path, attribute, child));
