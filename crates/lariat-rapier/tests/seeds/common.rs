@@ -61,13 +61,15 @@ pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
         "CoarseKink",
         "CoarseMotion",
         "CoarseElement",
+        "GreenStrain",
         "LargeStrain",
         "Stubby",
         "SoftMaterial",
     ];
     let mut names: Vec<(Level, String)> = set.warnings(world).iter().map(named).collect();
-    // the sections are drawn at random, of materials that carry waves faster than any does
-    names.retain(|(_, name)| !of_mesh.contains(&name.as_str()) && name != "FastWaves");
+    // sections and slack are drawn at random, of materials that carry waves faster than any does
+    let drawn = ["FastWaves", "MuchSlack"];
+    names.retain(|(_, name)| !of_mesh.contains(&name.as_str()) && !drawn.contains(&name.as_str()));
     names.into_iter().map(|(level, name)| format!("{} {name}", level.name())).collect()
 }
 
