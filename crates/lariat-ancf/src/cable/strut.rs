@@ -64,9 +64,8 @@ pub(crate) struct Strut {
     along: Vector3<f64>,
     /// Its first and its last node.
     nodes: [usize; 2],
-    /// Its length, and what it is bent by, in m.
+    /// Its length in m.
     length: f64,
-    size: f64,
 }
 
 impl Cable {
@@ -85,10 +84,10 @@ impl Cable {
     }
 
     fn bend_strut(&mut self, strut: &Strut) {
-        let &Strut { along, nodes: [first, last], length, size } = strut;
+        let &Strut { along, nodes: [first, last], length } = strut;
         let axis = if along.x.abs() <= along.y.abs() { Vector3::x() } else { Vector3::y() };
         let normal = (axis - along * along.dot(&axis)).normalize();
-        let size = size / WAVES as f64;
+        let size = BEND * length / WAVES as f64;
         let mut from = 0.0;
         for node in first..=last {
             let support = self.model.support(node).copied().unwrap_or_default();
@@ -117,12 +116,9 @@ impl Cable {
             let last = self.model.supports.iter().find_map(held).unwrap_or(count);
             (spans.from, spans.number) = (last, number + 1);
             let Some(pushed) = self.pushed(first, last) else { continue };
-            let Pushed { along, length, off, strain, force, .. } = pushed;
+            let Pushed { along, length, strain, force, .. } = pushed;
             let before = self.snapshot.state.memory.bent_at.get(number).copied().unwrap_or_default();
-            let size = BEND;
-            let is_loaded = strain > COMPRESSED.max(BENT_AGAIN * before)
-                && off <= UNBENT * size
-                && force > self.bears([first, last], length);
+            let is_loaded = strain > COMPRESSED.max(BENT_AGAIN * before) && force > self.bears([first, last], length);
             let bent = strain.max(0.0);
             if (is_loaded || strain <= 0.0) && bent != before {
                 let bent_at = &mut self.snapshot.state.memory.bent_at;
@@ -130,7 +126,7 @@ impl Cable {
                 bent_at[number] = bent;
             }
             if is_loaded {
-                return Some(Strut { along, nodes: [first, last], length, size: size * length });
+                return Some(Strut { along, nodes: [first, last], length });
             }
         }
         None

@@ -28,7 +28,6 @@ pub struct EnergyLaw {
     pub loads: f64,
     /// Of that, the work of the forces and torques on bodies: gravity, those of the user, and those
     /// by which an engine's contacts and joints take part.
-    #[serde(default)]
     pub bodies: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,

@@ -118,6 +118,16 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
+    /// A number between two, evenly distributed.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * 0.5 * (1.0 + self.next())
+    }
+
+    /// A number between two, evenly distributed by its logarithm.
+    pub fn log(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.between(0.0, 1.0))
+    }
+
     /// A vector with components in [-1, 1).
     pub fn vector(&mut self) -> Vector3<f64> {
         Vector3::new(self.next(), self.next(), self.next())

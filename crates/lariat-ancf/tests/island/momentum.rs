@@ -183,11 +183,6 @@ enum Island {
     Chain,
 }
 
-/// Returns a random number between two, evenly distributed by its logarithm.
-fn between(random: &mut Random, low: f64, high: f64) -> f64 {
-    low * (high / low).powf(0.5 * (random.next() + 1.0))
-}
-
 /// Returns a random island without gravity, thrown and tumbling.
 fn thrown_island(seed: u64, kind: Island, integrator: Integrator) -> Scene {
     let mut random = Random::new(seed);
@@ -199,7 +194,7 @@ fn thrown_island(seed: u64, kind: Island, integrator: Integrator) -> Scene {
     };
     let mut place = Vector3::zeros();
     for i in 0..count {
-        let (mass, size) = (between(&mut random, 0.1, 100.0), between(&mut random, 0.05, 2.0));
+        let (mass, size) = (random.log(0.1, 100.0), random.log(0.05, 2.0));
         let semi = (random.vector() + Vector3::repeat(1.5)) * size;
         let squares = semi.component_mul(&semi);
         let inertia = Matrix3::from_diagonal(&(Vector3::repeat(squares.sum()) - squares)) * (mass / 5.0);
@@ -209,11 +204,9 @@ fn thrown_island(seed: u64, kind: Island, integrator: Integrator) -> Scene {
         };
         let anchors = [random.vector() * size, random.vector() * size];
         if has_rope {
-            let (length, slack) = (between(&mut random, 0.3, 10.0), between(&mut random, 1.0, 1.5));
-            let stiffness = between(&mut random, 1e3, 1e6);
-            let section =
-                Section::from_stiffness(stiffness, between(&mut random, 1e-6, 1.0), between(&mut random, 0.01, 1.0))
-                    .unwrap();
+            let (length, slack) = (random.log(0.3, 10.0), random.log(1.0, 1.5));
+            let stiffness = random.log(1e3, 1e6);
+            let section = Section::from_stiffness(stiffness, random.log(1e-6, 1.0), random.log(0.01, 1.0)).unwrap();
             let end = place + random.vector().normalize() * (length / slack);
             let rope = Cable::builder()
                 .points([place, end])
@@ -229,7 +222,7 @@ fn thrown_island(seed: u64, kind: Island, integrator: Integrator) -> Scene {
             place = end;
         }
         let mut body = RigidBody::new(mass, inertia, place - anchors[0]).unwrap();
-        body.velocity = random.vector() * between(&mut random, 0.3, 10.0);
+        body.velocity = random.vector() * random.log(0.3, 10.0);
         body.angular_velocity = random.vector() * 5.0;
         bodies.push((body, place));
         // the next rope begins at another point

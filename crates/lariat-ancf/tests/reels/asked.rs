@@ -20,7 +20,7 @@ fn game() -> Integrator {
 fn a_free_spool_runs_free_to_the_end_of_its_stock() {
     let mut random = Random::new(11);
     for _ in 0..16 {
-        let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.next());
+        let mut between = |low, high| random.between(low, high);
         let (mass, stock, dt) = (between(2.0, 40.0), between(1.5, 3.5), 1.0 / between(240.0, 960.0));
         let density = 0.02 * mass / stock;
         let reel = Reel { stock: Some(stock), feed: Feed::Bag, ..Reel::free_spool() };
@@ -67,7 +67,7 @@ fn a_free_spool_runs_free_to_the_end_of_its_stock() {
 fn a_reel_comes_to_the_length_that_is_asked_for() {
     let mut random = Random::new(5);
     for trial in 0..40 {
-        let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.next());
+        let mut between = |low, high| random.between(low, high);
         let (acceleration, most, dt) = (between(0.7, 8.0), between(0.3, 2.0), 1.0 / between(60.0, 400.0));
         let mut cable = rope(1.5, 6, game());
         let max_force = (trial % 2 == 0).then_some(1e4);

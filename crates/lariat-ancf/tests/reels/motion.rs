@@ -149,7 +149,7 @@ fn rates_are_linear_over_a_host_step() {
 fn a_reel_ends_exactly_at_its_stop() {
     let mut random = Random::new(7);
     for trial in 0..24 {
-        let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.next());
+        let mut between = |low, high| random.between(low, high);
         let (acceleration, speed, dt) = (between(0.7, 8.0), between(0.3, 2.0), 1.0 / between(60.0, 500.0));
         let (stock, motor) = (between(1.3, 1.9), trial % 2 == 0);
         let mut cable =

@@ -112,7 +112,7 @@ fn splits_and_merges_of_kinked_ropes_make_no_energy() {
     let (mut worst, mut lost, mut changes, mut held) = (f64::NEG_INFINITY, 0.0f64, [0u64; 2], 0.0f64);
     for seed in 0..24 {
         let mut random = Random::new(seed);
-        let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.next());
+        let mut between = |low, high| random.between(low, high);
         let (stiffness, speed) = (10f64.powf(between(4.0, 6.0)), between(1.0, 4.0));
         let mut builder = Cable::builder()
             .points([Vector3::new(0.0, -1.5, 0.0), Vector3::zeros()])

@@ -9,20 +9,6 @@ use nalgebra::Matrix3;
 
 const GAME: Integrator = Integrator { method: Method::DiscreteGradient, control: StepControl::Substeps(1) };
 
-/// Numbers of a seed.
-struct Numbers(Random);
-
-impl Numbers {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * 0.5 * (1.0 + self.0.next())
-    }
-
-    /// Evenly distributed logarithms.
-    fn log(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.between(0.0, 1.0))
-    }
-}
-
 /// Random loads hang by a rope, slack by up to 30 %, from drums that spin or are torqued: no step fails, but for those by which more than the half of an
 /// element would pass, which are refused by that name.
 ///
@@ -31,7 +17,7 @@ impl Numbers {
 fn random_drums_take_in_slack_rope_without_failing() {
     let (mut refused, count) = (0, 80);
     for seed in 0..count {
-        let mut n = Numbers(Random::new(seed));
+        let mut n = Random::new(seed);
         let (stiffness, density) = (n.log(1e3, 1e6), n.log(0.02, 1.0));
         let (load, wheel, radius) = (n.log(0.1, 100.0), n.log(1e-3, 100.0), n.log(0.05, 0.5));
         let slack = n.between(-0.01, 0.3);

@@ -1,27 +1,14 @@
 //! Motors that turn an end by a course, and what is told of holds that were lost.
 
+use super::rod;
 use lariat_ancf::{
-    At, Cable, Effects, EndSpin, EquilibriumFailure, Error, Fidelity, Integrator, Method, Section, SlopeSupport,
-    StepControl, Support, Torsion, Vector3, Warning,
+    At, Cable, Effects, EndSpin, EquilibriumFailure, Error, Fidelity, Section, SlopeSupport, Support, Torsion, Vector3,
+    Warning,
 };
 use nalgebra::{Rotation3, Unit};
 use std::f64::consts::TAU;
 
 const STIFFNESS: f64 = 0.02; // GJ in N m^2
-
-/// 1 m between two clamps, without weight.
-fn straight(torsion: Torsion) -> Result<Cable, Error> {
-    Cable::builder()
-        .points([Vector3::zeros(), Vector3::x()])
-        .section(Section::from_stiffness(1e4, 0.03, 0.1).unwrap())
-        .elements(8)
-        .gravity(Vector3::zeros())
-        .effects(Effects { torsion: Some(torsion), ..Effects::default() })
-        .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
-        .clamp(At::Start)
-        .clamp(At::End)
-        .build()
-}
 
 fn by(end: EndSpin) -> Torsion {
     Torsion { end, damping: 0.1, ..Torsion::new(STIFFNESS) }
@@ -35,7 +22,7 @@ fn by(end: EndSpin) -> Torsion {
 #[test]
 fn a_motor_turns_an_end_by_its_course() {
     let rows = [0.0, 0.5, 1.1, 2.0].map(|t: f64| [t, t * t / 8.0]);
-    let mut cable = straight(by(EndSpin::Course(rows.to_vec()))).unwrap();
+    let mut cable = rod(by(EndSpin::Course(rows.to_vec()))).build().unwrap();
     let (twist, steps) = (|t: f64| TAU * t * t / 8.0, 120);
     for k in 1..=steps {
         cable.step(1.0 / 60.0).unwrap();
@@ -56,7 +43,7 @@ fn a_motor_turns_an_end_by_its_course() {
 #[test]
 fn a_course_of_two_rows_is_a_motor_of_constant_rate() {
     let end = |spin: EndSpin| {
-        let mut cable = straight(by(spin)).unwrap();
+        let mut cable = rod(by(spin)).build().unwrap();
         (0..90).for_each(|_| cable.step(1.0 / 60.0).unwrap());
         (cable.torsion()[0].twist, cable.torsion()[0].torque)
     };
@@ -71,7 +58,7 @@ fn a_course_of_two_rows_is_a_motor_of_constant_rate() {
 #[test]
 fn a_course_is_part_of_the_description() {
     let rows = vec![[0.0, 0.0], [0.5, 0.3], [1.0, -0.2], [2.0, 0.4]];
-    let mut cable = straight(by(EndSpin::Course(rows))).unwrap();
+    let mut cable = rod(by(EndSpin::Course(rows))).build().unwrap();
     (0..40).for_each(|_| cable.step(1.0 / 60.0).unwrap());
     let snapshot = cable.snapshot().clone();
     let end = |cable: &mut Cable| {
@@ -89,7 +76,7 @@ fn a_course_is_part_of_the_description() {
 #[test]
 fn courses_that_are_none_are_refused() {
     for rows in [vec![], vec![[0.0, 0.0], [0.0, 1.0]], vec![[1.0, 0.0], [0.5, 1.0]], vec![[0.0, f64::NAN]]] {
-        let error = straight(by(EndSpin::Course(rows.clone()))).unwrap_err();
+        let error = rod(by(EndSpin::Course(rows.clone()))).build().unwrap_err();
         assert!(matches!(error, Error::InvalidValue { .. }), "{rows:?}: {error}");
     }
 }
@@ -101,14 +88,14 @@ fn courses_that_are_none_are_refused() {
 #[test]
 fn torsion_is_not_idle_because_of_a_cut() {
     let told = |cable: &Cable| cable.warnings().iter().any(|w| matches!(w, Warning::IdleTorsion { .. }));
-    let mut cable = straight(Torsion { initial_twist: 0.25, ..Torsion::new(STIFFNESS) }).unwrap();
+    let mut cable = rod(Torsion { initial_twist: 0.25, ..Torsion::new(STIFFNESS) }).build().unwrap();
     cable.step(1.0 / 60.0).unwrap();
     let mut tail = cable.cut(0.5).unwrap();
     for part in [&mut cable, &mut tail] {
         part.step(1.0 / 60.0).unwrap();
         assert!(part.torsion().is_empty() && !told(part));
     }
-    let mut swivel = straight(by(EndSpin::Swivel)).unwrap();
+    let mut swivel = rod(by(EndSpin::Swivel)).build().unwrap();
     swivel.step(1.0 / 60.0).unwrap();
     assert!(told(&swivel));
 }

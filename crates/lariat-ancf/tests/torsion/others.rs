@@ -430,18 +430,7 @@ fn torsion_that_is_stiffer_than_bending_is_told() {
 /// says.
 fn held_between(inner: EndSpin, turns: f64) -> Cable {
     let torsion = Torsion { inner, initial_twist: turns, ..Torsion::new(0.02) };
-    Cable::builder()
-        .points([Vector3::zeros(), Vector3::x()])
-        .section(Section::from_stiffness(1e4, 0.03, 0.1).unwrap())
-        .elements(8)
-        .gravity(Vector3::zeros())
-        .effects(Effects { torsion: Some(torsion), ..Effects::default() })
-        .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
-        .clamp(At::Start)
-        .clamp(At::ArcLength(0.25))
-        .clamp(At::End)
-        .build()
-        .unwrap()
+    super::rod(torsion).clamp(At::ArcLength(0.25)).build().unwrap()
 }
 
 /// A swivel between two clamps lets the torque through; a motor there twists one side and turns the

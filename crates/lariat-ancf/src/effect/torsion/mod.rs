@@ -184,7 +184,7 @@ impl Torsion {
     /// Torsion of stiffness GJ in N m^2: untwisted as built, clamps hold the spin.
     pub fn new(stiffness: f64) -> Self {
         let (initial_twist, damping, torque_per_tension) = (0.0, 0.0, 0.0);
-        let [start, end, inner] = [const { EndSpin::Held }; 3];
+        let (start, end, inner) = Default::default();
         Torsion { stiffness, initial_twist, damping, torque_per_tension, start, end, inner }
     }
 
