@@ -9,7 +9,7 @@
 //! use lariat_ancf::{Cable, Section, Vector3};
 //!
 //! let ends = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)];
-//! let cable = Cable::builder().points(ends).section(Section::new(1e5, 0.1, 0.1)).build()?;
+//! let cable = Cable::builder().points(ends).section(Section::from_stiffness(1e5, 0.1, 0.1)?).build()?;
 //! let saved = seal("cable", &serde_json::to_vec(&cable)?);
 //! let read: Cable = serde_json::from_slice(unseal("cable", &saved)?)?;
 //! assert_eq!(read.positions(), cable.positions());
