@@ -197,6 +197,9 @@ impl From<lariat_rapier::Error> for Raise {
             LinkLost { cable, body: debug, gap }
             JointInStatics { body: debug }
             ContactInStatics { body: debug }
+            MovesInStatics { way }
+            CablesPassInStatics { cable, other, arc_length }
+            CablePassesBodyInStatics { cable, body: debug, arc_length }
             CableTouchesInStatics { cable, collider: debug, arc_length, depth }
             BodyNotFinite { body: debug, time }
         );

@@ -148,13 +148,28 @@ pub enum Error {
         /// What of the joint.
         reason: &'static str,
     },
-    /// A contact of a body whose equilibrium is asked for, where it was or where it was moved.
-    #[error("statics compute no contacts, and body {body:?} touches {}: step until it rests", name_of(.other))]
+    /// A contact of a body whose equilibrium is asked for, where it was or where it was moved, in a
+    /// world that comes to no rest by its motion.
+    #[error(
+        "statics compute no contacts of bodies, body {body:?} touches {}, and in 30 s of motion not all comes to rest, or something changes with time: \
+         step until it rests",
+        name_of(.other)
+    )]
     ContactInStatics {
         /// The body.
         body: RigidBodyHandle,
         /// The other body; `None` for a collider without one.
         other: Option<RigidBodyHandle>,
+    },
+    /// Cables that touch each other, themselves, or bodies that they move, with a shape in which
+    /// they do not stand, in a world that comes to no rest by its motion.
+    #[error(
+        "statics compute no contact of cables with each other and with bodies that they move: from what they find something moves by {way:.1e} m in a \
+         quarter of a second, and in 30 s of motion not all comes to rest: step until it rests"
+    )]
+    MovesInStatics {
+        /// The largest way in m.
+        way: f64,
     },
     /// A cable with contact that would run through a collider in equilibrium: over a sharp edge or
     /// something thin, which the samples of contact do not see.

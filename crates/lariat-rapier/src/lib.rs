@@ -151,7 +151,7 @@ pub use read::warnings::Warning;
 pub use scales::set::ROPE_DAMPING;
 pub use set::CableSet;
 pub use set::rope::{Rope, RopeEnd, RopeHandles};
-pub use statics::{BodyForce, Equilibrium};
+pub use statics::{BodyForce, Equilibrium, Relaxed};
 pub use step::HostStep;
 pub use step::budget::Budget;
 pub use step::settings::Settings;

@@ -312,6 +312,24 @@ pub(crate) mod statics {
     /// Distance in m within which two colliders touch. Unknown: within it a body is taken to stand
     /// on another.
     pub(crate) const TOUCH: f64 = 1e-3;
+
+    /// Host step in s of a relaxation. Derived: that of games.
+    pub(crate) const RELAXATION_STEP: f64 = 1.0 / 60.0;
+
+    /// Largest number of its host steps: 30 s. Setting.
+    pub(crate) const RELAXATION_STEPS: u32 = 1800;
+
+    /// Least numbers of host steps from one stop to the next, in turn. Derived: a quarter of a
+    /// second to a second, quarters of the periods of pendulums of 0.25 to 4 m.
+    pub(crate) const WINDOWS: [u32; 3] = [15, 30, 60];
+
+    /// Host steps after a stop in which what rests does not move. Derived: a quarter of a second,
+    /// in which gravity moves what it is not balanced on by 0.3 m.
+    pub(crate) const STILL_STEPS: u32 = 15;
+
+    /// Largest way in that time over the largest length of a cable. Setting: forces are then
+    /// balanced to some 1e-5 of the weights.
+    pub(crate) const STILL: f64 = 1e-6;
 }
 
 /// Of [`read`](crate::read).

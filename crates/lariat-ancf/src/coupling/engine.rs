@@ -166,6 +166,19 @@ pub trait Coupling {
     /// on time.
     fn is_loaded_steadily(&self, h: f64) -> bool;
 
+    /// Begins to come to rest by steps of a host, who [stops](Self::stop) it at every peak of
+    /// kinetic energy: it stands, its loads act as statics have them, at the end of their ramps, it
+    /// has the integrator of games, and it cannot break. What is not [held
+    /// still](Self::is_held_still) moves on.
+    fn begin_relaxation(&mut self);
+
+    /// Stops it where it is, but for moving supports; what it touches stays.
+    fn stop(&mut self);
+
+    /// Ends a relaxation at rest, with the clock, loads, strength, integrator and history of the
+    /// cable `before` it.
+    fn end_relaxation(&mut self, before: &Cable);
+
     /// Returns the largest load since the cable was compared with its limits last, the present one
     /// included; `None` without a limit.
     fn peak_load(&self) -> Option<Load>;
@@ -349,6 +362,18 @@ impl Coupling for Cable {
 
     fn is_loaded_steadily(&self, h: f64) -> bool {
         Cable::is_loaded_steadily(self, h)
+    }
+
+    fn begin_relaxation(&mut self) {
+        Cable::begin_relaxation(self);
+    }
+
+    fn stop(&mut self) {
+        Cable::stop(self);
+    }
+
+    fn end_relaxation(&mut self, before: &Cable) {
+        Cable::end_relaxation(self, before);
     }
 
     fn peak_load(&self) -> Option<Load> {

@@ -115,7 +115,7 @@ impl Flow {
     }
 
     /// Returns whether it is the same from one time to another, in s.
-    pub(crate) fn is_steady(&self, from: f64, to: f64) -> bool {
+    pub fn is_steady(&self, from: f64, to: f64) -> bool {
         if self.surface.as_ref().is_some_and(|surface| surface.wave.is_some()) {
             return false;
         }

@@ -18,6 +18,13 @@ pub struct EquilibriumReport {
     pub stable: bool,
 }
 
+impl EquilibriumReport {
+    /// Returns the report of a search by another crate.
+    pub fn new(iterations: usize, residual: f64, stable: bool) -> Self {
+        EquilibriumReport { iterations, residual, stable }
+    }
+}
+
 /// Tolerance and number of iterations of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquilibriumOptions {

@@ -40,6 +40,7 @@ mod load_ramp;
 mod polish;
 mod potential;
 mod pseudo_transient;
+mod relaxation;
 mod rest_in_flow;
 mod saddle;
 mod self_stress;

@@ -130,7 +130,7 @@ impl Draft {
             floats,
             coil: features.contains(&Feature::TouchesItself),
             hangs: false,
-            rests: false,
+            rests: features.contains(&Feature::Statics),
             from: 0.0,
             start: Hold::Free,
             end: Hold::Free,
@@ -192,7 +192,10 @@ impl Draft {
                 let motor = Reel { rate: vec![[0.0, -0.4]], max_force: Some(1.5), inertia: 0.1, ..Reel::default() };
                 self.wind(Wound::Reel(motor));
             }
-            Feature::ReelBrake => self.wind(Wound::Reel(Reel { inertia: 0.05, ..Reel::brake(0.5) })),
+            // a brake that slips has no equilibrium
+            Feature::ReelBrake => {
+                self.wind(Wound::Reel(Reel { inertia: 0.05, ..Reel::brake(if self.rests { 5.0 } else { 0.5 }) }))
+            }
             Feature::FreeSpool => self.wind(Wound::Reel(Reel { inertia: 0.2, ..Reel::free_spool() })),
             Feature::Sheave => self.sheave = true,
             Feature::Drum => self.wind(Wound::Drum),
@@ -236,8 +239,8 @@ impl Draft {
             Feature::Game => self.fidelity = Some(Fidelity::Game),
             Feature::Engineering => self.fidelity = Some(Fidelity::Engineering),
             Feature::Adaptive => self.fidelity = Some(Fidelity::Custom(Integrator::ADAPTIVE)),
-            Feature::Statics => self.rests = true,
-            Feature::Snapshot | Feature::Sleep | Feature::ErrorTarget => {}
+            // statics are known from the start
+            Feature::Statics | Feature::Snapshot | Feature::Sleep | Feature::ErrorTarget => {}
         }
     }
 

@@ -19,6 +19,9 @@ pub fn reason(pair: Pair) -> Option<&'static str> {
         _ if pair.has(Feature::Stranded) && pair.both().iter().any(winds) => Some(
             "a stranded rope is wound up with the twist of its load and gives it back, and stock has no memory of twist",
         ),
+        _ if pair.has(Feature::FreeSpool) && pair.has(Feature::Statics) => {
+            Some("a free spool turns under any pull, so nothing rests")
+        }
         // it has added mass
         _ if pair.has(Feature::Buoyancy) && pair.both().iter().any(winds) => {
             Some("added mass acts along a cable as across it, and what comes out along itself moves no fluid")

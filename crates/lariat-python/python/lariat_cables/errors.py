@@ -310,7 +310,20 @@ class JointInStaticsError(Error):
 
 
 class ContactInStaticsError(Error):
-    """A contact of a body whose equilibrium is asked for: body."""
+    """A contact of a body whose equilibrium is asked for, in a world that comes to no rest by its motion: body."""
+
+
+class MovesInStaticsError(Error):
+    """Cables that touch each other, themselves, or bodies that they move, in a world that comes to no rest by its motion: way."""
+
+
+class CablesPassInStaticsError(Error):
+    """Cables that would be found beyond each other, in a world that comes to no rest by its motion: cable, other, arc_length."""
+
+
+class CablePassesBodyInStaticsError(Error):
+    """A cable that would be found in a body that cables move, or beyond it, in a world that comes to no rest by its motion: cable, body,
+    arc_length."""
 
 
 class CableTouchesInStaticsError(Error):

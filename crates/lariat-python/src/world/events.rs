@@ -75,9 +75,7 @@ impl World {
     }
 
     /// Moves cables and the bodies on them, as their joints allow, to static equilibrium; true if
-    /// all is stable. Cables with contact lie on fixed and kinematic colliders, without friction.
-    /// Raises NoEquilibriumError, JointInStaticsError, ContactInStaticsError,
-    /// CableTouchesInStaticsError; all is then as before.
+    /// all is stable.
     fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let found = self.0.compute(py, |contents| contents.set.equilibrium(&mut contents.world)).map_err(raise)?;
         let handles = |bodies: &[RigidBodyHandle]| -> PyResult<Vec<Bound<'py, PyAny>>> {

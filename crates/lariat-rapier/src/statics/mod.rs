@@ -11,23 +11,25 @@
 //! # Validity
 //! Bodies are where their [joints](joints) allow; those that joints connect to a body with a cable
 //! move with it. Over sheaves runs what the pulls ask for; a drum must be locked in its rotation,
-//! or it has no equilibrium. No contacts of bodies: a body that has one is an error, before or
-//! after the search. Cables with contact lie, without friction, on the colliders of all bodies that
-//! stay where they are: fixed, kinematic, and dynamic ones that do not move with cables. One that
-//! would run through a collider, over a sharp edge or something thin that its samples do not see,
-//! is an error. Contact of cables with each other, and with bodies that they move, takes no part: a
-//! shape beyond what was drawn beside it is an [error](passed). A reel holds by no more than its
-//! largest force. A cable alone may end in an indifferent shape, which its report says.
+//! or it has no equilibrium. Cables with contact lie, without friction, on the colliders of all
+//! bodies that stay where they are: fixed, kinematic, and dynamic ones that do not move with
+//! cables. One that would run through a collider, over a sharp edge or something thin that its
+//! samples do not see, is an error. Contact of cables with each other, with themselves, and with
+//! bodies that they move takes no part in the search: where the shape that was found is
+//! [beyond](passed) what was drawn beside it, or does not stand, and where bodies touch, all of the
+//! world [comes to rest](relaxation) by its motion. A reel holds by no more than its largest force.
+//! A cable alone may end in an indifferent shape, which its report says.
 
 mod contacts;
 mod joints;
 mod multibody;
 mod passed;
+mod relaxation;
 mod report;
 mod solve;
 mod write;
 
-pub use report::Equilibrium;
+pub use report::{Equilibrium, Relaxed};
 pub use solve::BodyForce;
 
 use crate::body::ledger::is_ledger;
@@ -72,8 +74,38 @@ pub(crate) fn check_drawn(
     check_passed(contents, finder, world, moved.collect(), &[])
 }
 
-/// Moves cables and the dynamic bodies attached to them to static equilibrium.
+/// Moves cables and the dynamic bodies attached to them to static equilibrium; where statics have
+/// no law for what touches, all of the world by its motion.
 pub(crate) fn equilibrium(
+    contents: &mut Contents,
+    finder: &mut Finder,
+    world: &mut PhysicsWorld,
+    (forces, drawn): (&[BodyForce], &[(CableHandle, Cable)]),
+    options: EquilibriumOptions,
+) -> Result<Equilibrium, Error> {
+    let before = relaxation::has_more_contact(contents).then(|| (contents.clone(), relaxation::copy(world)));
+    let reason = match search(contents, finder, world, (forces, drawn), options) {
+        Err(
+            reason @ (Error::ContactInStatics { .. }
+            | Error::CablesPassInStatics { .. }
+            | Error::CablePassesBodyInStatics { .. }),
+        ) => reason,
+        Ok(found) => {
+            let Some((contents_before, world_before)) = before else { return Ok(found) };
+            let Some(way) = relaxation::moves(contents, world, forces) else { return Ok(found) };
+            *contents = contents_before;
+            relaxation::replace(world, world_before);
+            Error::MovesInStatics { way }
+        }
+        found => return found,
+    };
+    let relaxed = relaxation::relax(contents, world, (forces, drawn)).ok_or(reason)?;
+    read_forces(contents, world);
+    Ok(Equilibrium::by_motion(contents, world, relaxed))
+}
+
+/// Searches the equilibrium of each island by its forces.
+fn search(
     contents: &mut Contents,
     finder: &mut Finder,
     world: &mut PhysicsWorld,

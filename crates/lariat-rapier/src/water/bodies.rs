@@ -127,6 +127,11 @@ impl BodiesInWater {
         true
     }
 
+    /// Returns whether the water moves as now for a time of `h` (s).
+    pub(crate) fn is_steady(&self, h: f64) -> bool {
+        self.water.flow.is_steady(self.time, self.time + h)
+    }
+
     /// Returns the time of the water in s: that of the set's cables, and without cables the length
     /// of the steps since the set has the water, from 0.
     pub fn time(&self) -> f64 {

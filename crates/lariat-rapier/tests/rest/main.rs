@@ -1,7 +1,8 @@
-//! Statics of cables and bodies under twist and in water, and the runs that start from them.
+//! Statics of cables and bodies under twist, in water, and in contact, and the runs that start from them.
 
 mod centre;
 mod torsion;
+mod touching;
 mod water;
 
 use lariat_rapier::CableSet;

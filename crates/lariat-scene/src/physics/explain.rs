@@ -24,8 +24,9 @@ impl Physics {
             }
             lariat_rapier::Error::ContactInStatics { body, other } => {
                 let other = other.and_then(name).map_or("a collider".to_string(), |other| format!("body {other:?}"));
-                let problem =
-                    format!("statics compute no contacts, and it touches {other}: run the scene until it rests");
+                let problem = format!(
+                    "statics compute no contacts of bodies, it touches {other}, and in 30 s of motion not all comes to rest, or something changes with time: run the scene until it rests"
+                );
                 Error::Body { time, body: name(body).unwrap_or_default(), problem }
             }
             lariat_rapier::Error::CableTouchesInStatics { cable, collider, arc_length, depth } => {

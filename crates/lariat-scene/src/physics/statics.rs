@@ -20,6 +20,9 @@ pub struct Settled {
     pub held: Vec<usize>,
     /// Dynamic bodies that no cable is attached to.
     pub unattached: Vec<usize>,
+    /// Host steps of 1/60 s in which all came to rest by its motion, where statics have no law for
+    /// what touches.
+    pub relaxation_steps: Option<u32>,
 }
 
 impl Physics {
@@ -107,6 +110,7 @@ impl Physics {
             moved: named(&found.moved),
             held: named(&found.held),
             unattached: named(&found.unattached),
+            relaxation_steps: found.relaxed.map(|relaxed| relaxed.host_steps),
         })
     }
 }

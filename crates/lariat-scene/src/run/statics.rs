@@ -65,6 +65,11 @@ pub struct BodyStatics {
     pub held: Vec<String>,
     /// Names of dynamic bodies that no cable is attached to, left where they are drawn.
     pub unattached: Vec<String>,
+    /// Host steps of 1/60 s in which all came to rest by its motion, where statics have no law for
+    /// what touches: bodies that rest on others, cables that touch each other, themselves, or
+    /// bodies that they move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relaxation_steps: Option<u32>,
 }
 
 /// A body in equilibrium.
@@ -91,6 +96,7 @@ impl BodyStatics {
             moved: settled.moved.iter().filter_map(place).collect(),
             held: settled.held.iter().map(name).collect(),
             unattached: settled.unattached.iter().map(name).collect(),
+            relaxation_steps: settled.relaxation_steps,
         }
     }
 }
