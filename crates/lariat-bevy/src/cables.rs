@@ -31,7 +31,10 @@ use crate::links::Links;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::resource::Resource;
 use lariat_ancf::{At, Break};
-use lariat_rapier::{CableHandle, CableSet, Event, HostStep, Settings};
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
+use lariat_rapier::rapier::math::Pose;
+use lariat_rapier::rapier::pipeline::PhysicsWorld;
+use lariat_rapier::{CableHandle, CableSet, Equilibrium, Event, HostStep, Settings};
 
 /// The cables of a world: a resource to read with `Res<Cables>` and to change with
 /// `ResMut<Cables>`.
@@ -100,6 +103,29 @@ impl Cables {
         self.set.cut(handle, at)?;
         self.take_partings();
         Ok(())
+    }
+
+    /// Moves bodies by a rigid motion in world axes, with the cables that are attached to them, as
+    /// [`CableSet::move_bodies`] does: a teleport without a jolt.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; nothing has moved then.
+    pub fn move_bodies(
+        &mut self,
+        world: &mut PhysicsWorld,
+        bodies: &[RigidBodyHandle],
+        by: &Pose,
+    ) -> Result<(), Error> {
+        Ok(self.set.move_bodies(world, bodies, by)?)
+    }
+
+    /// Moves the cables that were built, and the bodies on them, to static equilibrium, as
+    /// [`CableSet::equilibrium`] does. Cables are built, and attached, before a host step.
+    ///
+    /// # Errors
+    /// [`Error::Coupling`]; all is then as before.
+    pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
+        Ok(self.set.equilibrium(world)?)
     }
 
     /// Takes the events of cables that broke or were cut from the set.

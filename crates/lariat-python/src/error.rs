@@ -195,6 +195,8 @@ impl From<lariat_rapier::Error> for Raise {
             AnchorNotFinite { body: debug, anchor }
             AlreadyAttached { cable, node }
             LinkLost { cable, body: debug, gap }
+            HeldInMove { cable }
+            JointInMove { body: debug }
             JointInStatics { body: debug }
             ContactInStatics { body: debug }
             MovesInStatics { way }

@@ -110,6 +110,32 @@ def test_bodies_are_read_and_changed() -> None:
     assert len(world.rigid_bodies) == 0
 
 
+def test_bodies_are_moved_with_their_cables() -> None:
+    """Bodies that were moved and turned about the vertical go on as those that were not, moved and turned."""
+
+    def swing(moves: bool) -> tuple[np.ndarray, np.ndarray]:
+        world = lariat.World()
+        hook = world.add_body(RigidBody.fixed(), [Collider.ball(0.01)])
+        crate = world.add_body(RigidBody.dynamic(translation=[1.5, -1.0, 0.5]).can_sleep(False), [Collider.cuboid(0.1, 0.1, 0.1).mass(20.0)])
+        rope = world.add_cable(lariat.Cable([[0, 0, 0], [1.5, -1.0, 0.5]], lariat.Section.square(0.01, 1e9, 4000.0), name="rope"))
+        world.attach(rope, "start", hook, [0, 0, 0])
+        world.attach(rope, "end", crate, [0, 0, 0])
+        for step in range(60):
+            if moves and step == 30:
+                with pytest.raises(errors.HeldInMoveError) as held:
+                    world.move_bodies([crate], translation=by)
+                assert held.value.cable == "rope"
+                world.move_bodies([hook, crate], translation=by, rotation=[0, angle, 0])
+            world.step()
+        return rope.positions, world.rigid_bodies[crate].translation
+
+    by, angle = np.array([3.0, 1.0, -2.0]), 0.7
+    turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+    (moved, crate), (stayed, other) = swing(True), swing(False)
+    assert np.abs(moved - (stayed @ turn.T + by)).max() < 1e-4
+    assert np.abs(crate - (turn @ other + by)).max() < 1e-4
+
+
 def test_what_does_not_fit_is_named() -> None:
     world, sling, crate, hook = payload()
     alone = lariat.Cable([[0, 0, 0], [1, 0, 0]], lariat.Section(1e3, 0.1, 0.1))

@@ -227,8 +227,8 @@ pub enum Warning {
     },
     /// A reel whose rate comes near the speed of waves.
     #[error(
-        "cable {cable:?}: at {time_s:.3} s its reel turns with {ratio:.2} of the speed of transverse waves: above 0.3 waves of the mesh may \
-         grow, and its frequencies are wrong then; give the cable damping in bending, or a slower rate"
+        "cable {cable:?}: at {time_s:.3} s its reel turns with {ratio:.2} of the speed of transverse waves: above 0.3 waves across \
+         it may grow, whatever its damping, and its shape and frequencies are wrong then; give it a slower rate, or more tension"
     )]
     FastReel {
         /// Name of the cable.

@@ -83,9 +83,7 @@ impl Watch {
             self.displacement = self.displacement.max(motion.displacement);
         }
         let ratio = cable.reels().map(|reel| reel.speed_ratio).fold(0.0, f64::max);
-        // damping along the cable does not hinder waves across it
-        let damped = cable.effects().damping.is_some_and(|damping| damping.bending > 0.0);
-        if ratio.is_finite() && ratio > self.reel.0 && !damped {
+        if ratio.is_finite() && ratio > self.reel.0 {
             self.reel = (ratio, cable.time());
         }
         let (share, tension, stiffness) = cable.largest_strain();

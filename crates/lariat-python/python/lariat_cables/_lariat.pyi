@@ -533,6 +533,11 @@ class World:
     def remove_body(self, handle: Handle) -> None:
         """Removes a body with its colliders; attachments to it end at the next step. Raises NoBodyError."""
 
+    def move_bodies(self, bodies: Sequence[Handle], translation: ArrayLike | None = None, rotation: ArrayLike | None = None) -> None:
+        """Moves bodies by ``translation`` (m) after a turn by the rotation vector ``rotation`` (rad) about the origin, in world axes, with the cables that
+        are attached to them and those tied to these: a teleport without a jolt. Velocities turn with them, strains and tensions stay; contacts
+        begin anew. Raises HeldInMoveError, JointInMoveError, NoBodyError, OtherWorldError, InvalidValueError; nothing has moved then."""
+
     @property
     def rigid_bodies(self) -> RigidBodySet:
         """The bodies, by handle."""

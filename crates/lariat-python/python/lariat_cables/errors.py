@@ -305,6 +305,14 @@ class LinkLostError(Error):
     """A link of a multibody that moved otherwise than predicted: body, gap."""
 
 
+class HeldInMoveError(Error):
+    """A cable on bodies that are to be moved, which something else holds, too: cable."""
+
+
+class JointInMoveError(Error):
+    """A body to be moved that is joined to one that stays, or a link of a multibody: body."""
+
+
 class JointInStaticsError(Error):
     """A joint on a body whose equilibrium is asked for, of a kind that statics do not compute: body."""
 

@@ -8,7 +8,7 @@ use lariat_ancf::{Error as CableError, Vector3};
 use lariat_rapier::convert::{ToRapier, to_vector};
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use lariat_rapier::rapier::geometry::ColliderHandle;
-use lariat_rapier::rapier::math::Vector as Single;
+use lariat_rapier::rapier::math::{Pose, Vector as Single};
 use lariat_rapier::{Error, convert};
 use nalgebra::{Quaternion, UnitQuaternion};
 use pyo3::prelude::*;
@@ -177,6 +177,22 @@ impl World {
             world.remove_body(handle.0).map(|_| ())
         });
         removed.ok_or_else(|| raise(Error::NoBody(handle.0)))
+    }
+
+    /// Moves bodies.
+    #[pyo3(signature = (bodies, translation=None, rotation=None))]
+    fn move_bodies(
+        &self,
+        py: Python<'_>,
+        bodies: Vec<Handle>,
+        translation: Option<Vector>,
+        rotation: Option<Vector>,
+    ) -> PyResult<()> {
+        let read = |what: &str, v: Option<Vector>| single(what, v.map_or_else(Vector3::zeros, |v| v.0));
+        let (way, turn) = (read("translation (m)", translation)?, read("rotation (rad)", rotation)?);
+        let bodies: Vec<RigidBodyHandle> = bodies.into_iter().map(|body| body.0).collect();
+        let moved = self.0.compute(py, |Contents { world, set, .. }| set.move_bodies(world, &bodies, &Pose::new(way, turn)));
+        moved.map_err(raise)
     }
 
     /// Handles of all bodies that the user added.

@@ -21,6 +21,7 @@ mod free_flight;
 mod hoist;
 mod host_steps;
 mod joints;
+mod lamps;
 mod lever;
 mod light_links;
 mod moving_ends;
