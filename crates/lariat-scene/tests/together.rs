@@ -65,7 +65,8 @@ fn a_grapple_winds_round_a_post_and_reels_in() {
 /// *Source.* Length and energy: conservation; weight and centrifugal force of the load.
 #[test]
 fn the_rope_of_a_crane_lies_on_its_jib() {
-    let run = run("duration = 6.0\n[[body]]\nname = \"jib\"\nkind = \"kinematic\"\nshape = { cuboid = [3.0, 0.15, 0.3] }\nposition = [0.0, 0.0, 0.0]\n\
+    let run = run(
+        "duration = 6.0\n[[body]]\nname = \"jib\"\nkind = \"kinematic\"\nshape = { cuboid = [3.0, 0.15, 0.3] }\nposition = [0.0, 0.0, 0.0]\n\
         friction = 0.2\npath = { rotation = [[0.0, 0, 0, 0], [1.0, 0, 0.0, 0], [2.0, 0, 0.1, 0], [4.0, 0, 0.4, 0], [6.0, 0, 0.6, 0]] }\n\
         [[body]]\nname = \"load\"\nshape = { cuboid = [0.2, 0.2, 0.2] }\nmass = 100.0\nposition = [3.02, -3.2, 0.0]\n\
         [[cable]]\nname = \"rope\"\npoints = [[-2.5, 0.17, 0.0], [3.0, 0.17, 0.0], [3.02, 0.15, 0.0], [3.02, -3.0, 0.0]]\nelements = 60\n\
@@ -73,7 +74,8 @@ fn the_rope_of_a_crane_lies_on_its_jib() {
         integrator = { fidelity = \"game\" }\ncontact = { radius = 0.02, friction = 0.2 }\n\
         reel = { end = \"start\", rate = [[0.0, 0.0], [1.0, -0.3], [5.0, 0.0]], acceleration = 0.5 }\n\
         [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"jib\"\n[[attachment]]\nname = \"hook\"\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\n\
-        [[probe]]\nname = \"reel\"\nreel = \"rope\"\n[[probe]]\nname = \"load\"\nbody = \"load\"\n");
+        [[probe]]\nname = \"reel\"\nreel = \"rope\"\n[[probe]]\nname = \"load\"\nbody = \"load\"\n",
+    );
     let out = column(&run, "reel", "length_out");
     let (first, end) = (out[0], *out.last().unwrap());
     assert!((first - end - 1.2).abs() < 1e-3, "{first} m, {end} m");

@@ -255,8 +255,15 @@ impl Draft {
     }
 
     /// Winds cable at the start, or at the end if it is wound at the start.
-    fn wind(&mut self, wound: Wound) {
-        self.wound[usize::from(self.wound[0].is_some())] = Some(wound);
+    fn wind(&mut self, mut wound: Wound) {
+        let second = self.wound[0].is_some();
+        // the other end may be on a body that moves, whose mass changes with what is out
+        if let Wound::Reel(reel) = &mut wound
+            && second
+        {
+            reel.stock = Some(9.0);
+        }
+        self.wound[usize::from(second)] = Some(wound);
     }
 
     /// Lets the cable touch something, or itself.

@@ -1,6 +1,6 @@
 //! Contact of the cables of a set with each other.
 
-use super::common::bits;
+use super::common::{bits, is_left_out_in_double};
 use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::math::Vector as RVector;
@@ -326,6 +326,9 @@ fn groups_and_rules_hold_between_cables() {
 /// *Source.* Geometry; the energy law.
 #[test]
 fn a_net_of_ropes_that_touch_catches_a_ball() {
+    if is_left_out_in_double() {
+        return;
+    }
     let mut world = PhysicsWorld::new();
     let ball =
         RigidBodyBuilder::dynamic().translation(RVector::new(0.03, 0.2, -0.02)).linvel(RVector::new(0.1, -3.0, 0.05));

@@ -1,7 +1,7 @@
 //! Random chains of jointed bodies on one or two ropes: what is read is right, or told not to be.
 
 use super::arms::{Elbow, join_links};
-use super::common::{gap, soft, wire};
+use super::common::{gap, is_left_out_in_double, soft, wire};
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::lariat_ancf::effect::Damping;
 use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, Section, Vector3};
@@ -185,6 +185,9 @@ fn contact_impulse(world: &PhysicsWorld, collider: ColliderHandle) -> Vector3<f6
 /// Reference: balance of momentum; it needs no other solution.
 #[test]
 fn ropes_on_random_chains_balance_or_it_is_told() {
+    if is_left_out_in_double() {
+        return;
+    }
     let (mut right, mut told, mut refused, mut silent) = (0, 0, 0, Vec::new());
     for seed in 0..60 {
         let chain = Chain::random(seed);

@@ -83,3 +83,9 @@ pub fn bits(world: &PhysicsWorld, set: &CableSet) -> Vec<u64> {
     let cables = set.iter().flat_map(|(_, c)| c.positions().iter().chain(c.velocities()).copied());
     bodies.map(|x| u64::from(x.to_bits())).chain(cables.map(f64::to_bits)).collect()
 }
+
+/// Returns whether this is the build in double precision, without `LARIAT_LONG_TESTS=1`: it leaves out tests of many seconds that do not
+/// depend on the precision.
+pub fn is_left_out_in_double() -> bool {
+    size_of::<Real>() == 8 && std::env::var_os("LARIAT_LONG_TESTS").is_none_or(|value| value != "1")
+}

@@ -1,6 +1,8 @@
 //! Bodies in contact while a cable pulls: jams, friction, impacts.
 
-use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, weightless, wire};
+use super::common::{
+    add_cube, cable, gap, is_left_out_in_double, l_stable_integrator, run, soft, steel, tension, weightless, wire,
+};
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, CableBuilder, Damping, Drag, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -167,6 +169,9 @@ fn series(masses: &[Real], section: Section, damping: f64, pull: f64) -> ([f64; 
 /// Reference: statics: what the winch holds does not change when it stops.
 #[test]
 fn waves_between_jammed_bodies_do_not_grow_under_error_control() {
+    if is_left_out_in_double() {
+        return;
+    }
     let rope = Section::round(0.003, 2e9, 1e5).unwrap();
     for (masses, section, damping, pull, told) in [
         (&[1.0][..], wire(), 0.0, 1e3, false),

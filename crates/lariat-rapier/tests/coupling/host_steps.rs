@@ -1,7 +1,7 @@
 //! Host steps of any length: in the middle of a motion, on bodies that are free, on joints, driven
 //! and asleep.
 
-use super::common::{add_cube, cable, gap, run, soft};
+use super::common::{add_cube, cable, gap, is_left_out_in_double, run, soft};
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
@@ -185,6 +185,9 @@ fn a_carriage_in_tiny_host_steps_pulls_no_harder() {
 /// 800 kg on a hinge made 1e14 J.
 #[test]
 fn long_host_steps_make_no_energy_and_freeze_nothing() {
+    if is_left_out_in_double() {
+        return;
+    }
     for holding in [Holding::Free, Holding::Hinge, Holding::Link] {
         for mass in [1.0, 30.0, 800.0] {
             for h in [0.5, 1.5, 5.0, 60.0] {

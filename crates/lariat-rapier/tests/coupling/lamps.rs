@@ -1,6 +1,6 @@
 //! Lamps that hang asleep until a wind rises.
 
-use super::common::cable;
+use super::common::{cable, is_left_out_in_double};
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::{At, Damping, Drag, Effects, Flow, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -13,6 +13,9 @@ use lariat_rapier::{AttachmentKind, CableSet};
 /// q/w (L - W/w ln(1 + w L/W)).
 #[test]
 fn a_hundred_lamps_wake_in_a_wind_that_rises() {
+    if is_left_out_in_double() {
+        return;
+    }
     let (mut world, mut set) = (PhysicsWorld::new(), CableSet::new());
     world.gravity = Vector::new(0.0, -9.81, 0.0);
     let speed = 8.0;
@@ -21,12 +24,17 @@ fn a_hundred_lamps_wake_in_a_wind_that_rises() {
             let (x, mass, length) = (f64::from(i), 1.0 + 0.02 * f64::from(i), 1.0 + f64::from(i % 11) / 10.0);
             let lamp = RigidBodyBuilder::dynamic().translation(Vector::new(x as Real, -length as Real, 0.0));
             let (lamp, _) = world.insert(lamp, ColliderBuilder::ball(0.05).mass(mass as Real));
-            let flow = Flow { velocity: Vector3::z() * speed, history: vec![[6.0, 0.0], [9.0, 1.0]], ..Flow::default() };
+            let flow =
+                Flow { velocity: Vector3::z() * speed, history: vec![[6.0, 0.0], [9.0, 1.0]], ..Flow::default() };
             let drag = Drag { diameter: Some(0.05), ..Drag::new(1.2, 1.2, 0.0, flow) };
             let line = cable([x, 0.0, 0.0], [x, -length, 0.0], Section::from_stiffness(1e4, 1e-3, 0.05).unwrap())
                 .elements(3)
                 .fix(At::Start)
-                .effects(Effects { drag: Some(drag), damping: Some(Damping { axial: 0.02, bending: 0.2 }), ..Effects::default() });
+                .effects(Effects {
+                    drag: Some(drag),
+                    damping: Some(Damping { axial: 0.02, bending: 0.2 }),
+                    ..Effects::default()
+                });
             let line = set.insert(line.build().unwrap());
             set.attach(&world, line, At::End, lamp, Vector3::zeros(), AttachmentKind::Ball).unwrap();
             (line, lamp, x, mass, length)

@@ -1,6 +1,6 @@
 //! Hinged bodies that swing with loads on ropes: a lever, against its equations of motion, and booms, as multibodies and on impulse joints.
 
-use super::common::{cable, gap};
+use super::common::{cable, gap, is_left_out_in_double};
 use lariat_rapier::lariat_ancf::{At, Fidelity, Section, Warning};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
@@ -199,6 +199,9 @@ impl Boom<'_> {
 /// line that snaps taut, a load that is 1e-4 heavier moves otherwise by a tenth of its way, and the loss of energy is told; fidelity engineering resolves it.
 #[test]
 fn a_falling_boom_moves_the_same_as_a_multibody_and_on_impulse_joints() {
+    if is_left_out_in_double() {
+        return;
+    }
     let mut wrong = Vec::new();
     for (links, load) in [
         (&[3.0][..], 2.0),

@@ -1,6 +1,6 @@
 //! Slack ropes that are drawn beside the bodies that they are tied to.
 
-use super::common::run;
+use super::common::{is_left_out_in_double, run};
 use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Warning};
@@ -107,6 +107,9 @@ fn a_slack_rope_that_is_clear_hangs_along_gravity() {
 /// rope puts at most its weight on it.
 #[test]
 fn a_rope_at_rest_beside_its_crate_has_no_tension_against_it() {
+    if is_left_out_in_double() {
+        return;
+    }
     let hooks = [[-0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [-0.1, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.1, -0.05, 0.1]];
     let (mut clear, mut all, mut wrong) = (0, 0, Vec::new());
     for (k, anchor) in hooks.into_iter().enumerate() {
