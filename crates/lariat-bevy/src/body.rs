@@ -77,6 +77,11 @@ impl BodyHandle {
     pub fn external(handle: RigidBodyHandle) -> Self {
         BodyHandle { handle }
     }
+
+    /// Returns the handle in Rapier's world.
+    pub fn handle(&self) -> RigidBodyHandle {
+        self.handle
+    }
 }
 
 /// Position, rotation and velocity of a body after the last host step.

@@ -29,6 +29,12 @@ impl Reel {
     pub fn with_rate(rate: f64) -> Self {
         Reel(lariat_ancf::Reel::with_rate(rate))
     }
+
+    /// A reel that comes to a length of cable (m) that is out, with at most a rate (m/s), and stops
+    /// there.
+    pub fn to_length(length: f64, rate: f64) -> Self {
+        Reel(lariat_ancf::Reel { to_length: Some(length), ..lariat_ancf::Reel::with_rate(rate) })
+    }
 }
 
 /// A reel at the start of a cable, as [`Reel`] is one at the end.
@@ -39,6 +45,12 @@ impl ReelAtStart {
     /// A reel with a constant rate in m/s: positive pays out.
     pub fn with_rate(rate: f64) -> Self {
         ReelAtStart(lariat_ancf::Reel::with_rate(rate))
+    }
+
+    /// A reel that comes to a length of cable (m) that is out, with at most a rate (m/s), and stops
+    /// there.
+    pub fn to_length(length: f64, rate: f64) -> Self {
+        ReelAtStart(lariat_ancf::Reel { to_length: Some(length), ..lariat_ancf::Reel::with_rate(rate) })
     }
 }
 

@@ -180,6 +180,9 @@ fn a_reel_at_the_start_is_a_component_too() {
     let expected = 0.5 - 0.5 * 0.5 * 0.25;
     assert_relative_eq!(cable_of(&world, cable).length(), 2.5 - expected, epsilon = 1e-6);
     assert!((height(&world, load) - before - expected).abs() < 0.04);
+    *world.get_mut::<ReelAtStart>(cable).unwrap() = ReelAtStart::to_length(2.4, 0.5);
+    steps(&mut world, 120);
+    assert_relative_eq!(cable_of(&world, cable).length(), 2.4, epsilon = 1e-9);
     world.resource_mut::<Cables>().cut(cable, 1.2).unwrap();
     steps(&mut world, 2);
     let broken: Vec<CableBroken> = world.resource_mut::<Messages<CableBroken>>().drain().collect();

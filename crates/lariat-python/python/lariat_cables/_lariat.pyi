@@ -643,14 +643,15 @@ class World:
         start_body: Handle | None = None,
         end_body: Handle | None = None,
         slack: float = 0.0,
+        length: float | None = None,
         strength: float | None = None,
         elements: int | None = None,
         fidelity: Fidelity | None = None,
         name: str = "rope",
     ) -> Rope:
         """Adds the usual rope between two points (m), each held by a body or by the world, damped by 0.2 of critical at its lowest axial
-        mode. ``slack``: unstretched length beyond the distance, as a share of it; ``strength``: tension in N above which it breaks;
-        ``elements``: default that of fidelity game. Raises NoBodyError, CoincidentPointsError, InvalidValueError, ElementCountError."""
+        mode. ``slack``: unstretched length beyond the distance, as a share of it; ``length``: unstretched length in m, in place of a slack;
+        ``strength``: tension in N above which it breaks; ``elements``: default that of fidelity game. Raises NoBodyError, CoincidentPointsError, InvalidValueError, ElementCountError."""
 
     def set_strength(self, cable: Cable, tension: float | None = None, *, strain: float | None = None) -> None:
         """Sets the tension in N and the strain above which a cable breaks; None: no limit. Raises InvalidValueError, OneElementError,

@@ -36,7 +36,7 @@ impl World {
     /// as a share of it; ``strength``: tension in N above which it breaks; ``elements``: default
     /// that of fidelity game. Raises NoBodyError, CoincidentPointsError, InvalidValueError,
     /// ElementCountError.
-    #[pyo3(signature = (start, end, section, *, start_body=None, end_body=None, slack=0.0, strength=None, elements=None, fidelity=None, name="rope"))]
+    #[pyo3(signature = (start, end, section, *, start_body=None, end_body=None, slack=0.0, length=None, strength=None, elements=None, fidelity=None, name="rope"))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn add_rope<'py>(
         &self,
@@ -47,6 +47,7 @@ impl World {
         start_body: Option<Handle>,
         end_body: Option<Handle>,
         slack: f64,
+        length: Option<f64>,
         strength: Option<f64>,
         elements: Option<usize>,
         fidelity: Option<&str>,
@@ -54,7 +55,7 @@ impl World {
     ) -> PyResult<Bound<'py, PyAny>> {
         let fidelity = fidelity.map(self::fidelity).transpose()?;
         let elements = elements.unwrap_or(Fidelity::Game.elements());
-        let rope = Rope { slack, strength, elements, fidelity, ..Rope::new(section.0).name(name) };
+        let rope = Rope { slack, unstretched_length: length, strength, elements, fidelity, ..Rope::new(section.0).name(name) };
         let ends = [(start, start_body), (end, end_body)]
             .map(|(point, body)| RopeEnd { point: point.0, body: body.map(|b| b.0) });
         let added = self.0.compute(py, |contents| {

@@ -17,6 +17,9 @@ pub struct Rope {
     /// Unstretched length beyond the distance of the ends, as a share of that distance. Default 0:
     /// straight and without tension.
     pub slack: f64,
+    /// Unstretched length in m, whatever the distance of the ends and the slack: shorter than the
+    /// distance, it begins taut. Default: by the slack.
+    pub unstretched_length: Option<f64>,
     /// Tension in N above which it breaks. Default: it does not break.
     pub strength: Option<f64>,
     /// Number of elements. Default: that of [`Fidelity::Game`].
@@ -41,6 +44,7 @@ impl Rope {
             name: "rope".to_string(),
             section,
             slack: 0.0,
+            unstretched_length: None,
             strength: None,
             elements: Fidelity::Game.elements(),
             fidelity: None,
@@ -56,6 +60,12 @@ impl Rope {
     /// Sets the unstretched length beyond the distance of the ends, as a share of that distance.
     pub fn slack(mut self, slack: f64) -> Self {
         self.slack = slack;
+        self
+    }
+
+    /// Sets the unstretched length in m, in place of a slack.
+    pub fn unstretched_length(mut self, length: f64) -> Self {
+        self.unstretched_length = Some(length);
         self
     }
 
@@ -79,7 +89,7 @@ impl Rope {
 
     /// Returns its unstretched length in m between two points.
     pub fn length(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
-        (to - from).norm() * (1.0 + self.slack)
+        self.unstretched_length.unwrap_or_else(|| (to - from).norm() * (1.0 + self.slack))
     }
 
     /// Builds its cable, fixed where no body holds it; `fidelity` is that of the set, whose rule it

@@ -40,6 +40,31 @@ fn a_rope_in_one_call_holds_where_it_is_told_to() {
     assert!((world.bodies[load].position() * Vector::new(0.0, 0.1, 0.0) - hook.to_rapier()).length() < 1e-5);
 }
 
+/// A rope has the length that is asked for, whatever its slack: a long one hangs, a short one pulls by its stretch.
+///
+/// *Source.* By Green's strain e = ((d/L)^2 - 1)/2 over the distance d a taut rope pulls EA e d/L.
+#[test]
+fn a_rope_has_the_length_that_is_asked_for() {
+    let world = PhysicsWorld::new();
+    let mut cables = CableSet::new();
+    for (length, slack) in [(2.5, 0.0), (1.99, 0.3)] {
+        let rope = Rope::new(soft()).slack(slack).unstretched_length(length);
+        let rope = cables.add_rope(&world, [0.0; 3], [2.0, 0.0, 0.0], rope).unwrap().cable;
+        let cable = cables.get(rope).unwrap();
+        assert!((cable.length() - length).abs() < 1e-12, "{}", cable.length());
+        let (stretch, axial) = (2.0 / length, soft().axial_stiffness);
+        let pull = if stretch > 1.0 { axial * 0.5 * (stretch * stretch - 1.0) * stretch } else { 0.0 };
+        let found = cable.sample(0.5 * length).unwrap().tension;
+        assert!(
+            if pull > 0.0 { (found / pull - 1.0).abs() < 1e-9 } else { found.abs() < 1e-3 * axial },
+            "{found} {pull}"
+        );
+    }
+    let impossible = Rope::new(soft()).unstretched_length(-1.0);
+    let error = cables.add_rope(&world, [0.0; 3], [2.0, 0.0, 0.0], impossible).unwrap_err();
+    assert!(matches!(error, Error::Cable(CableError::InvalidValue { .. })), "{error}");
+}
+
 /// What is not possible is a typed error, and adds nothing.
 #[test]
 fn an_impossible_rope_is_an_error_and_adds_nothing() {

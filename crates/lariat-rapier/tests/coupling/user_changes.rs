@@ -366,6 +366,37 @@ fn bodies_move_with_their_ropes_in_one_call() {
     assert!(off < 1e-3 && end.norm() < 5e-3 && pulled < 0.02 * largest && moved.3 < 1e-5);
 }
 
+/// A load that swings on a body that is fixed, or led, moves with it under gravity, turned about the vertical.
+///
+/// Reference: frame indifference.
+#[test]
+fn what_holds_a_rope_is_moved_with_it() {
+    let by = Pose::from_parts(Vector::new(3.0, 1.0, -2.0), Rotation::from_rotation_y(0.7));
+    for holder in [RigidBodyBuilder::fixed(), RigidBodyBuilder::kinematic_position_based()] {
+        let run = |moved: bool| {
+            let mut world = PhysicsWorld::new();
+            let hook = world.insert_body(holder.clone());
+            let load = add_cube(&mut world, 20.0, 0.1, [1.5, -1.0, 0.5]);
+            let mut set = CableSet::new();
+            let rope = set.insert(cable([0.0; 3], [1.5, -1.0, 0.5], soft()).fidelity(Fidelity::Game).build().unwrap());
+            set.attach(&world, rope, At::Start, hook, Vector::ZERO, AttachmentKind::Ball).unwrap();
+            set.attach(&world, rope, At::End, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
+            for step in 0..60 {
+                if step == 30 && moved {
+                    set.move_bodies(&mut world, &[hook, load], &by).unwrap();
+                }
+                set.step(&mut world).unwrap();
+            }
+            (world.bodies[load].center_of_mass(), set.get(rope).unwrap().node_position(5))
+        };
+        let (stayed, moved) = (run(false), run(true));
+        let to = |p: Vector| by.rotation * p + by.translation;
+        let off = (to(stayed.0) - moved.0).length();
+        let node = (vector(to(lariat_rapier::convert::to_vector(&stayed.1))) - moved.1).norm();
+        assert!(off < 1e-4 && node < 1e-4, "{off} m, {node} m");
+    }
+}
+
 /// What cannot move as one is refused by name, and nothing has moved.
 ///
 /// Reference: the contract.
