@@ -317,6 +317,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::UnseenLoad { cable: cable(), time_s, share: 0.9, reached: 1.1, step_s },
         Warning::RoundedEnds { cable: cable(), time_s, noise_n: 1.0, tension_n: 2.0 },
         Warning::PassedThrough { cable: cable(), steps },
+        Warning::Facets { cable: cable(), time_s, slid_m: 1.0 },
         Warning::NotResolved { cable: cable(), steps },
         Warning::CutShort { cable: cable(), steps },
         Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },

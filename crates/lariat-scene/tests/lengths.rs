@@ -129,3 +129,43 @@ fn parsed_attachment(at: f64) -> Result<(), String> {
     assert!([0.0, 40.0].contains(&scene.attachments[0].arc_length));
     Ok(())
 }
+
+/// Line loads, pieces of a rest shape and sheaves stand at shares of the length, as attachments do.
+///
+/// *Source.* The same scene with the places in metres.
+#[test]
+fn places_may_be_shares_of_the_length() {
+    let rest = |from: &str, middle: &str, to: &str| {
+        format!(
+            "length = 44.0\naxial_stiffness = 2.0e6\nbending_stiffness = 1.0\nmass_per_length = 1.5\n\
+             [[cable.line_load]]\nfrom = {from}\nto = {to}\nforce = [0.0, 0.0, 1.0]\n\
+             [[cable.rest_shape.piece]]\nfrom = 0.0\ncurvature = 0.0\n[[cable.rest_shape.piece]]\nfrom = {middle}\ncurvature = 0.1\n"
+        )
+    };
+    let by_share = parsed(&rest("\"25 %\"", "\"50 %\"", "\"100 %\"")).unwrap();
+    let by_length = parsed(&rest("11.0", "22.0", "44.0")).unwrap();
+    assert_eq!(by_share.cables[0].effects, by_length.cables[0].effects);
+    for (from, middle, to, named) in [
+        ("\"-1 %\"", "22.0", "44.0", "from"),
+        ("11.0", "\"100 %\"", "44.0", "from"),
+        ("11.0", "22.0", "\"20 %\"", "to"),
+    ] {
+        let error = parsed(&rest(from, middle, to)).unwrap_err();
+        assert!(error.contains(named), "{error}");
+    }
+    let over = |at: &str| {
+        let points = "[[0.0, -2.0, 0.0], [0.0, 0.0, 0.0], [0.0, -2.0, 0.0]]";
+        let text = format!(
+            "duration = 0.1\n[[cable]]\nname = \"rope\"\npoints = {points}\nelements = 12\naxial_stiffness = 1.0e5\nbending_stiffness = 0.0\n\
+             mass_per_length = 0.02\n[[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\nanchor = [0.0, -2.0, 0.0]\n\
+             [[sheave]]\ncable = \"rope\"\nat = {at}\nbody = \"world\"\nanchor = [0.0, 0.0, 0.0]\n"
+        );
+        Scene::parse("scene.toml", &text, &[], Purpose::Run).map_err(|error| error.to_string())
+    };
+    let lengths = |scene: Scene| scene.cables.iter().map(|cable| cable.length).collect::<Vec<_>>();
+    assert_eq!(lengths(over("\"50 %\"").unwrap()), lengths(over("2.0").unwrap()));
+    for wrong in ["0.0", "\"start\"", "\"100 %\"", "4.1"] {
+        let error = over(wrong).unwrap_err();
+        assert!(error.contains("sheave.0.at"), "{wrong}: {error}");
+    }
+}

@@ -61,6 +61,11 @@ pub trait Surface: Debug + Send + Sync {
     /// Returns the corners of a box about the shape; `None` for one without bounds.
     fn bounds(&self) -> Option<[Vector3<f64>; 2]>;
 
+    /// Returns whether it has many plane faces, as a mesh. Default: no.
+    fn has_facets(&self) -> bool {
+        false
+    }
+
     /// Returns false only if no point of the shape is within a ball of `radius` (m) about `centre`.
     /// By its bounds, or without them by its distance; a shape of many parts knows better.
     fn may_meet(&self, centre: &Vector3<f64>, radius: f64) -> bool {

@@ -52,6 +52,14 @@ pub(crate) const SLACK: f64 = 3.0;
 /// critical is above it.
 pub(crate) const SLOWEST_STRETCH: f64 = 1.0;
 
+/// Angle in rad between normals of a mesh about which a cable bends. Derived: ten degrees, more than
+/// one facet of a pulley of 36 sides; ground is flatter where a cable lies.
+pub(crate) const FACET_TURN: f64 = 0.175;
+
+/// Way along itself, in radii of contact, after which a cable that slides over facets is told.
+/// Derived: one edge takes some radii.
+pub(crate) const SLID: f64 = 10.0;
+
 /// Largest rate of a reel over the speed of transverse waves. Derived: the square of it, 9 %, is
 /// what the moving rope adds to its tension.
 pub(crate) const REEL: f64 = 0.3;

@@ -29,6 +29,7 @@ impl Warning {
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
             | Warning::CutShort { .. }
+            | Warning::Facets { .. }
             | Warning::TwistSlips { .. }
             | Warning::KinksThroughItself { .. } => Level::Wrong,
             Warning::CoarseMesh { .. }
@@ -73,6 +74,7 @@ impl Warning {
             | Warning::CoarseContact { cable, .. }
             | Warning::HighRestitution { cable, .. }
             | Warning::FrictionLags { cable, .. }
+            | Warning::Facets { cable, .. }
             | Warning::CutShort { cable, .. }
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
@@ -128,6 +130,7 @@ impl Judged for Warning {
             | Warning::SlowReel { .. }
             | Warning::UnseenLoad { .. }
             | Warning::FrictionLags { .. }
+            | Warning::Facets { .. }
             | Warning::RoundedEnds { .. } => return None,
         })
     }
@@ -171,6 +174,7 @@ impl Judged for Warning {
             Warning::SlowReel { asked_m, given_m, .. } => (asked_m - given_m).abs(),
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
+            Warning::Facets { slid_m, .. } => *slid_m,
             Warning::Sinks { share, .. } => *share,
             Warning::PassedThrough { steps, .. }
             | Warning::NotResolved { steps, .. }

@@ -192,6 +192,19 @@ pub enum Warning {
         /// Axial stiffness EA in N.
         axial_stiffness_n: f64,
     },
+    /// A cable slides over the facets of a mesh.
+    #[error(
+        "cable {cable:?}: until {time_s:.3} s it slid {slid_m:.3} m along itself over the facets of a mesh about which it bends: its edges brake it, also without friction, \
+         by 5 to 50 % on a pulley of 12 to 96 sides: take a round shape (cylinder, ball, capsule), or a sheave"
+    )]
+    Facets {
+        /// Name of the cable.
+        cable: String,
+        /// Time in s.
+        time_s: f64,
+        /// Way in m.
+        slid_m: f64,
+    },
     /// Integration makes energy.
     #[error(
         "cable {cable:?}: integration of it, and of what moves with it, makes energy: {made_j:.1e} J until {time_s:.4} s, {percent:.2} % of its largest energy or work ({scale_j:.3e} J): {}",

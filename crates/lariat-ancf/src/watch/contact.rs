@@ -7,6 +7,17 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Contacts {
     pub(crate) depth: Excess,
     pub(crate) turn: Excess,
+    #[serde(default)]
+    pub(crate) facets: Facets,
+}
+
+/// How far a cable slid along itself over facets about which it bends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Facets {
+    /// Way in m.
+    pub(crate) slid: f64,
+    /// Time in s when it was read last.
+    pub(crate) at: f64,
 }
 
 /// How far a reading exceeds its limit, and since when.

@@ -72,6 +72,10 @@ impl Compound {
 }
 
 impl Surface for Compound {
+    fn has_facets(&self) -> bool {
+        self.parts.iter().any(|part| part.surface.has_facets())
+    }
+
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let each = self.parts.iter().map(|part| {
             let nearest = part.surface.nearest(&part.to_own(y));

@@ -124,6 +124,10 @@ fn about(centre: &Vector3<f64>, radius: f64) -> Aabb {
 }
 
 impl Surface for Mesh {
+    fn has_facets(&self) -> bool {
+        true
+    }
+
     fn nearest(&self, y: &Vector3<f64>) -> Nearest {
         let (_, (triangle, location)) = self.tree.project_local_point_and_get_location(to_vector(y), false);
         let (number, corners) = (triangle as usize, &self.triangles[triangle as usize]);

@@ -3,7 +3,8 @@
 use super::common::{add_cube, cable, run, soft};
 use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{
-    At, Contact, Integrator, Level, Method, Section, StepControl, Warning as CableWarning,
+    At, Cable, Contact, Damping, Fidelity, Integrator, Level, Method, Motion, Section, StepControl, Vector3,
+    Warning as CableWarning,
 };
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap, Warning};
@@ -334,4 +335,69 @@ fn far_anchors_and_other_units_are_told() {
     assert_eq!(kinds(0.1, 1.0), Vec::<&str>::new());
     assert_eq!(kinds(0.1, 100.0), ["unit"]);
     assert_eq!(kinds(2.0, 1.0), ["anchor"]);
+}
+
+/// Two weights on a rope over a pulley: one that is a mesh of 24 sides is told, a cylinder is not, and neither is a rope that is dragged over a
+/// flat mesh, or one that rests on the pulley.
+///
+/// Reference: the contract.
+#[test]
+fn a_rope_that_slides_over_facets_is_told() {
+    let prism = |sides: u32| {
+        let ring = |x: Real, k: u32| {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(sides);
+            Vector::new(0.2 * angle.cos() as Real, 0.2 * angle.sin() as Real, x)
+        };
+        let corners: Vec<Vector> = (0..sides).flat_map(|k| [ring(-0.3, k), ring(0.3, k)]).collect();
+        ColliderBuilder::convex_hull(&corners).unwrap()
+    };
+    let flat = || {
+        let corner = |x: Real, z: Real| Vector::new(x, 0.0, z);
+        let corners = vec![corner(-9.0, -9.0), corner(-9.0, 9.0), corner(9.0, 9.0), corner(9.0, -9.0)];
+        ColliderBuilder::trimesh(corners, vec![[0, 1, 2], [0, 2, 3]]).unwrap()
+    };
+    let wheel = || ColliderBuilder::cylinder(0.3, 0.2).rotation(Vector::X * std::f64::consts::FRAC_PI_2 as Real);
+    let is_told = |set: &CableSet, world: &PhysicsWorld| {
+        let told = set.warnings(world);
+        told.iter().any(|warning| format!("{warning:?}").contains("Facets"))
+    };
+    for (shape, masses, told) in [
+        (prism(24), [3.0, 2.0], true),
+        (prism(12), [1.0, 2.0], true),
+        (prism(24), [2.0, 2.0], false),
+        (wheel(), [3.0, 2.0], false),
+    ] {
+        let mut world = PhysicsWorld::new();
+        world.insert(RigidBodyBuilder::fixed(), shape.friction(0.0));
+        let reach = 0.205;
+        let loads = [(-reach, masses[0]), (reach, masses[1])]
+            .map(|(x, mass)| add_cube(&mut world, mass, 0.05, [x as Real, -1.0, 0.0]));
+        let arc = (0..=12).map(|k| std::f64::consts::PI * (1.0 - f64::from(k) / 12.0));
+        let arc = arc.map(|angle| Vector3::new(reach * angle.cos(), reach * angle.sin(), 0.0));
+        let mut points = vec![Vector3::new(-reach, -1.0, 0.0)];
+        points.extend(arc);
+        points.push(Vector3::new(reach, -1.0, 0.0));
+        let rope =
+            Cable::builder().points(points).elements(60).section(Section::from_stiffness(1e5, 1e-3, 0.02).unwrap());
+        let rope = rope.damping(Damping { axial: 1e-3, bending: 1e-2 }).fidelity(Fidelity::Game);
+        let mut set = CableSet::new();
+        let rope = set.insert(rope.build().unwrap());
+        set.set_contact(rope, Contact::with_friction(0.0).with_radius(0.005)).unwrap();
+        for (at, load) in [(At::Start, loads[0]), (At::End, loads[1])] {
+            set.attach(&world, rope, at, load, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        }
+        run(&mut world, &mut set, 40);
+        assert_eq!(is_told(&set, &world), told, "{masses:?}: {:?}", set.warnings(&world));
+    }
+    let mut world = PhysicsWorld::new();
+    world.insert(RigidBodyBuilder::fixed(), flat().friction(0.3));
+    let mut set = CableSet::new();
+    let rope = cable([0.0, 0.01, 0.0], [2.0, 0.01, 0.0], soft()).elements(20).fidelity(Fidelity::Game).fix(At::End);
+    let rope = set.insert(rope.build().unwrap());
+    set.set_contact(rope, Contact::with_friction(0.3).with_radius(0.01)).unwrap();
+    let from = Vector3::new(2.0, 0.01, 0.0);
+    let pulled = Motion::hermite(0.0, 2.0, (from, Vector3::x()), (from + 2.0 * Vector3::x(), Vector3::x()));
+    set.get_mut(rope).unwrap().set_motion(At::End, pulled).unwrap();
+    run(&mut world, &mut set, 60);
+    assert!(!is_told(&set, &world), "{:?}", set.warnings(&world));
 }

@@ -7,7 +7,9 @@ use super::flow::{self, FLOW};
 use super::water;
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{ANY, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, choice, table};
+use crate::schema::{
+    ANY, ARC_LENGTH, Choose, Default, Key, Kind, NOT_NEGATIVE, POSITIVE, UNIT, VECTOR, choice, share, table,
+};
 use lariat_ancf::effect::Effect;
 use lariat_ancf::{
     AxialLaw, BendingRule, Buoyancy, Contact, Damping, Drag, Effects, EndSpin, GravityScale, LineLoad, LineLoads,
@@ -227,8 +229,8 @@ table! {
 table! {
     /// A piece of a rest shape, up to the next piece. An element belongs to the piece in which its middle lies.
     keys REST_PIECE for RestPiece("[[cable.rest_shape.piece]]") {
-        /// Arc length of the unstretched cable where the piece begins, ascending from piece to piece.
-        from = required, Kind::Number(NOT_NEGATIVE), "m";
+        /// Arc length of the unstretched cable where the piece begins, or a share of its length, ascending from piece to piece.
+        from = required, ARC_LENGTH, "m";
         /// Stress-free stretch.
         stretch = 1.0, Kind::Number(POSITIVE);
         /// Stress-free curvature, 0 with a rule without bending.
@@ -241,7 +243,11 @@ impl SceneEffect for RestShape {
     const KIND: Kind = Kind::Table(&RestShapeTable::TABLE);
     const WITHOUT: &'static str = "straight and unstretched";
 
-    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, _: &Context<'_>) -> Result<(), Error> {
+    fn write_out(doc: &Document<'_>, at: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
+        let pieces = value.get_mut("piece").and_then(Value::as_array_mut);
+        for piece in pieces.into_iter().flatten().filter_map(Value::as_table_mut) {
+            in_metres(piece, &["from"], cable.length);
+        }
         let RestShapeTable { stretch, curvature, mut piece } = doc.typed(at, value.clone())?;
         if stretch.is_some() || curvature.is_some() {
             if !piece.is_empty() {
@@ -275,12 +281,21 @@ impl SceneEffect for RestShape {
 table! {
     /// A constant force per length of a piece of the cable.
     keys LINE_LOAD for LineLoad("[[cable.line_load]]") {
-        /// Arc length of the unstretched cable where it begins, below the length of the cable.
-        from = 0.0, Kind::Number(NOT_NEGATIVE), "m";
-        /// Arc length where it ends, above `from`, at most the length of the cable.
-        to = ("the end of the cable"), Kind::Number(POSITIVE), "m";
+        /// Arc length of the unstretched cable where it begins, below the length of the cable, or a share of this.
+        from = 0.0, ARC_LENGTH, "m";
+        /// Arc length where it ends, above `from`, at most the length of the cable, or a share of this.
+        to = ("the end of the cable"), ARC_LENGTH, "m";
         /// Force per length of unstretched cable, in world axes.
         force = required, VECTOR, "N/m";
+    }
+}
+
+/// Writes the shares of a length (m) under some keys in metres.
+fn in_metres(table: &mut toml::Table, keys: &[&str], length: f64) {
+    for key in keys {
+        if let Some(share) = table.get(*key).and_then(Value::as_str).and_then(|text| share(text).ok()) {
+            table.insert((*key).to_string(), Value::Float(share * length));
+        }
     }
 }
 
@@ -291,6 +306,7 @@ impl SceneEffect for LineLoads {
     fn write_out(_: &Document<'_>, _: &KeyPath, value: &mut Value, cable: &Context<'_>) -> Result<(), Error> {
         for load in value.as_array_mut().into_iter().flatten().filter_map(Value::as_table_mut) {
             load.entry("to").or_insert(Value::Float(cable.length));
+            in_metres(load, &["from", "to"], cable.length);
         }
         Ok(())
     }

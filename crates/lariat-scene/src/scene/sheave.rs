@@ -1,11 +1,11 @@
 //! `[[sheave]]`: a wheel or an eye over which a cable runs, or one cable into another.
 
 use super::passing::Passed;
-use super::references::{cable, unique};
+use super::references::{Position, cable, unique};
 use super::{Scene, integrator};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
+use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, VECTOR, table};
 use lariat_ancf::{At, Cable, Reel, Vector3};
 
 /// Largest distance of the two ends at a sheave as drawn, in m.
@@ -22,8 +22,8 @@ table! {
         name: Option<String> = ("`sheave-N`, counted from 0"), Kind::Name(&[]);
         /// Name of a cable that runs over it.
         cable: Option<String> = (), Kind::Text;
-        /// Arc length of the unstretched cable at the sheave at t = 0; with a `radius`, of any point on the wheel as drawn.
-        at: Option<f64> = ("required with `cable`"), Kind::Number(POSITIVE), "m";
+        /// Arc length of the unstretched cable at the sheave at t = 0, or a share of its length; with a `radius`, of any point on the wheel as drawn.
+        at: Option<Position> = ("required with `cable`"), POSITION, "m";
         /// Name of the body that holds it, or `"world"`.
         body: Option<String> = ("required with `cable`"), Kind::Text;
         /// The eye, or the centre of the wheel, in the axes of the body or the world. The cable is drawn through it, or around the wheel; with

@@ -112,12 +112,15 @@ pub const MANY: u64 = u32::MAX as u64;
 /// Three numbers in the axes of the world or a body.
 pub const VECTOR: Kind = Kind::Numbers(&["x", "y", "z"], ANY);
 
+/// A share of the length of a cable.
+const SHARE_OF_LENGTH: Kind =
+    Kind::Parsed { accepted: "a share of the length, as \"50 %\"", parse: |text| share(text).map(|_| ()) };
+
 /// A point of a cable.
-pub const POSITION: Kind = Kind::Either(&[
-    Kind::Choice(|| vec!["start", "end"]),
-    Kind::Number(ANY),
-    Kind::Parsed { accepted: "a share of the length, as \"50 %\"", parse: |text| share(text).map(|_| ()) },
-]);
+pub const POSITION: Kind = Kind::Either(&[Kind::Choice(|| vec!["start", "end"]), Kind::Number(ANY), SHARE_OF_LENGTH]);
+
+/// An arc length, or a share of the length of a cable.
+pub const ARC_LENGTH: Kind = Kind::Either(&[Kind::Number(NOT_NEGATIVE), SHARE_OF_LENGTH]);
 
 /// Reads a share that is written in percent, as `"50 %"`.
 ///

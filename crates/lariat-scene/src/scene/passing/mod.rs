@@ -7,7 +7,7 @@ mod wheel;
 mod whole;
 
 use super::attachment::AttachmentScene;
-use super::references::{body_or_world, cable, unique};
+use super::references::{arc_length, body_or_world, cable, unique};
 use super::sheave::SheaveTable;
 use super::{CableScene, Scene};
 use crate::document::{Document, KeyPath};
@@ -115,6 +115,7 @@ fn read(doc: &Document<'_>, scene: &Scene, row: usize, table: &SheaveTable) -> R
     }
     let c = cable(doc, &at.key("cable"), scene, name)?;
     let position = table.at.ok_or_else(|| doc.missing(&at.key("at")))?;
+    let position = arc_length(doc, &at.key("at"), position, scene.cables[c].length)?;
     let body = table.body.as_ref().ok_or_else(|| doc.missing(&at.key("body")))?;
     let body = body_or_world(doc, &at.key("body"), scene, body)?;
     let anchor = table.anchor.ok_or_else(|| doc.missing(&at.key("anchor")))?;
