@@ -208,7 +208,8 @@ impl Draft {
                 effects.buoyancy = Some(buoyancy);
             }
             Feature::Torsion => {
-                effects.torsion = Some(Torsion { initial_twist: 0.5, damping: 0.2, ..Torsion::new(1e-3) });
+                // half of the torque at which a straight rope that nothing pulls kinks, 2.861 pi EI/L (Greenhill 1883)
+                effects.torsion = Some(Torsion { initial_twist: 0.715, damping: 0.2, ..Torsion::new(1e-3) });
                 self.clamps = true;
             }
             Feature::Stranded => {
