@@ -511,21 +511,25 @@ fn a_hold_that_is_given_back_begins_without_twist() {
     assert!(twist(&set, rope).abs() < 0.2, "{}", twist(&set, rope));
 }
 
-/// A hook that swings on a stranded rope under its weight is damped by GJ/G of what damps one whose rope cannot
-/// stretch, G = GJ + EA k^2: elongation gives way to the twist, and its rate takes part in that of the torque.
+/// A hook that swings on a stranded rope under its weight is damped by about GJ/G of what damps one whose rope cannot
+/// stretch, G = GJ + EA k^2: elongation gives way to the twist, and its rate takes part in that of the torque. With
+/// axial damping of the same time it is damped by all of it.
 ///
 /// Reference: M = GJ phi + k T + tau (GJ phi' - M' r/(1 + r)) at the tension T, r = EA k^2/GJ, by the law of the effect, where no
-/// inertia is along the rope: M/phi = GJ (1 + i w tau)/(1 + i w tau r/(1 + r)), whose loss angle is twice the damping ratio.
+/// inertia is along the rope: M/phi = GJ (1 + i w tau)/(1 + i w tau r/(1 + r)), whose loss angle is twice the damping ratio. Where
+/// both laws have the factor 1 + tau d/dt, so has M - k T = GJ phi.
 #[test]
 fn a_hook_on_a_stranded_rope_is_damped_by_a_share() {
     let (stiffness, inertia, tau, axial) = (0.5, 0.05, 0.05, 1e5);
     let omega = f64::sqrt(stiffness / inertia);
-    for factor in [0.0, 1e-3, 2e-3] {
+    for (factor, along) in [(0.0, 0.0), (1e-3, 0.0), (2e-3, 0.0), (2e-3, tau)] {
         let mut world = PhysicsWorld::new();
         let body = disc(&mut world, 10.0, [inertia, inertia], -Vector3::y(), Vector3::y());
         let mut set = CableSet::new();
-        let torsion = Torsion { damping: tau, torque_per_tension: factor, initial_twist: 0.1, ..Torsion::new(stiffness) };
-        let effects = Effects { torsion: Some(torsion), ..Effects::default() };
+        let torsion =
+            Torsion { damping: tau, torque_per_tension: factor, initial_twist: 0.1, ..Torsion::new(stiffness) };
+        let damping = Some(Damping { axial: along, bending: 0.0 });
+        let effects = Effects { torsion: Some(torsion), damping, ..Effects::default() };
         let rope = cable(Vector3::zeros(), -Vector3::y(), stiffness, 0.0).effects(effects);
         let section = Section::from_stiffness(axial, 0.6, 0.1).unwrap();
         let rope = set.insert(rope.section(section).gravity(Vector3::zeros()).clamp(At::Start).build().unwrap());
@@ -545,10 +549,11 @@ fn a_hook_on_a_stranded_rope_is_damped_by_a_share() {
         let last = ways.len() - 1;
         let decay = (ways[1] / ways[last]).ln() / (last - 1) as f64;
         let r = axial * factor * factor / stiffness;
-        let angle = (omega * tau).atan() - (omega * tau * r / (1.0 + r)).atan();
+        let of_stretch = if along > 0.0 { 0.0 } else { omega * tau * r / (1.0 + r) };
+        let angle = (omega * tau).atan() - of_stretch.atan();
         let ratio = 0.5 * angle.tan();
         let exact = std::f64::consts::PI * ratio / f64::sqrt(1.0 - ratio * ratio);
-        println!("k {factor} m: {decay} of {exact} per half period, {} extremes", ways.len());
+        println!("k {factor} m, {along} s: {decay} of {exact} per half period, {} extremes", ways.len());
         assert!((decay / exact - 1.0).abs() < 0.03, "{factor}: {decay} of {exact}");
     }
 }

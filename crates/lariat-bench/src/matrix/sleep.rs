@@ -16,7 +16,7 @@ use super::laws::{Ended, STEP, apart};
 use super::scene::{Fault, Scene};
 use crate::stability::outcome::Check;
 use lariat_ancf::{
-    At, Buoyancy, Damping, Flow, GravityScale, LineLoad, Motion, PointLoad, Reel, RestShape, Strength, Vector3,
+    At, Buoyancy, Damping, Effects, Flow, GravityScale, LineLoad, Motion, PointLoad, Reel, RestShape, Strength, Vector3,
 };
 use lariat_rapier::CableHandle;
 
@@ -67,14 +67,17 @@ fn draft(feature: Feature) -> Draft {
     if matches!(feature, Feature::LineLoad | Feature::Buoyancy | Feature::RestShape | Feature::GravityScale) {
         // given when it changes
         let damping = draft.effects.damping.take();
-        draft.effects = lariat_ancf::Effects { damping, ..Default::default() };
+        draft.effects = Effects { damping, ..Effects::default() };
     }
-    // a weight that turns on its rope rests soonest if its damping is critical
-    draft
-        .effects
-        .torsion
-        .iter_mut()
-        .for_each(|torsion| torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt());
+    // a weight that turns on its rope rests soonest if its damping is critical; of a stranded rope it is that
+    // if elongation is damped by the same time
+    let Effects { torsion, damping, .. } = &mut draft.effects;
+    if let (Some(torsion), Some(damping)) = (torsion, damping) {
+        torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt();
+        if torsion.torque_per_tension != 0.0 {
+            damping.axial = torsion.damping;
+        }
+    }
     if matches!(feature, Feature::Break | Feature::Prescribed) {
         draft.strength = None;
         draft.start = Hold::World;

@@ -259,10 +259,9 @@ def _slopes(rod: Rod, n_elements: int) -> Array:
     """Slopes dr/ds at the nodes: those of the centre line at its own points by differences of second order, linear between them. The directions of
     clamps are those of its ends; those of its first and last segments would tilt the clamps of a bent rod by half a segment's turn."""
     points: Array = np.asarray(rod.centerline, float)
-    arc = rod.rest_arc_length
-    if arc is None:
-        arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    gradient: Array = np.gradient(points, arc, axis=0, edge_order=min(2, len(points) - 1))
+    drawn: Array = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    arc: Array = drawn if rod.rest_arc_length is None else np.asarray(rod.rest_arc_length, float)
+    gradient: Array = np.gradient(points, arc, axis=0, edge_order=2 if len(points) > 2 else 1)
     at = np.linspace(0.0, rod.length, n_elements + 1)
     return np.stack([np.interp(at, arc, component) for component in gradient.T], axis=1)
 
