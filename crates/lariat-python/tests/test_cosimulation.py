@@ -177,7 +177,7 @@ def test_impedance_of_a_bent_and_twisted_cable_is_the_stiffness_of_its_equilibri
 
     moves = [([d, 0, 0], 0), ([0, d, 0], 0), ([0, 0, d], 0), ([0, 0, 0], d)]
     exact = np.array([(pulled(m, t) - pulled([-x for x in m], -t)) / (2 * d) for m, t in moves]).T
-    assert exact[3, 3] < 0.95 * 0.02 / cable.length  # the curve gives way
+    assert exact[3, 3] < 0.995 * 0.02 / cable.length  # the curve gives way
     to_end = np.zeros((12, 4))
     to_end[6:9, :3], to_end[9:, 3] = np.eye(3), axes[1]
     # forces of 1 N/m and moments of 1 N m/rad, as both are here
