@@ -22,7 +22,8 @@ pub(crate) struct Balance {
     pub numerical: f64,
     /// Energy taken from velocities.
     pub rescaled: f64,
-    /// Kinetic and strain energy and that of contacts at the beginning, and the weight times 1 mm.
+    /// Kinetic and strain energy and that of contacts at the beginning, and the weight times 1 mm;
+    /// bending by rule T1, whose forms the method's own dissipation has.
     pub held: f64,
     /// The weight times 1 mm.
     pub weight: f64,

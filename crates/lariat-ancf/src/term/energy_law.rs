@@ -46,7 +46,9 @@ pub struct EnergyLaw {
     /// iteration missed the law.
     pub residual: f64,
     /// Most energy that a single step made: the product of its residual and velocity beyond what it
-    /// lost. At most the tolerance, 1e-9 of the energy of the system.
+    /// lost. At most the tolerance, 1e-9 of the energy of the system, of which bending counts as
+    /// EI/2 times the integral of |r''|^2 (rule T1): that is the energy of its curvature but where
+    /// the stretch changes within an element, as in crumpled thick rods, where it is far larger.
     pub made: f64,
 }
 

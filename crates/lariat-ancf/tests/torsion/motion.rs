@@ -3,7 +3,8 @@
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::EnergyLaw;
 use lariat_ancf::{
-    At, Cable, Effects, EndSpin, Integrator, Method, Motion, Section, StepControl, Support, Torsion, Vector3,
+    At, AxialRule, BendingRule, Cable, Effects, EndSpin, Integrator, Method, Motion, Rule, Section, StepControl,
+    Support, Torsion, Vector3,
 };
 
 fn random(seed: u64) -> impl FnMut() -> f64 {
@@ -14,10 +15,13 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// Thrown twisted cables keep their energy law, and none makes energy nor is refused: nodes off by
-/// 3 cm and up to 5 m/s, up to 6 turns, EA and EI over three decades; 1000 in the long run.
+/// Thrown twisted cables keep their energy law, divided steps and all, and none makes energy nor is
+/// refused: nodes off by 3 cm and up to 5 m/s, up to 6 turns, EA and EI over three decades; 1000 in
+/// the long run.
 ///
-/// *Source.* The energy law, which is exact for any step.
+/// *Source.* The energy law, which is exact for any step: energy and store change by the work of
+/// supports less what method, rescaling and shorter steps take, and what the iteration missed. What
+/// one step makes is at most 1e-9 of the energy, bending as EI/2 times the integral of |r''|^2.
 #[test]
 fn thrown_twisted_cables_keep_their_energy_law() {
     throw(0.0);
@@ -32,9 +36,25 @@ fn thrown_stranded_ropes_keep_their_energy_law() {
     throw(1.0);
 }
 
+/// A clamped cable of 8 elements.
+fn clamped(section: Section, rule: Rule, torsion: Option<Torsion>) -> Cable {
+    Cable::builder()
+        .points([Vector3::zeros(), Vector3::new(0.5, 0.3, 0.0), Vector3::new(0.9, 0.0, 0.2)])
+        .section(section)
+        .elements(8)
+        .rule(rule)
+        .clamp(At::Start)
+        .clamp(At::End)
+        .effects(Effects { torsion, ..Effects::default() })
+        .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
+        .build()
+        .unwrap()
+}
+
 /// Throws twisted cables whose torque per tension is up to `most` times sqrt(EI/EA).
 fn throw(most: f64) {
     let mut next = random(17);
+    let (mut worst, mut divided) = ([0.0f64; 2], 0);
     let runs = if std::env::var_os("LARIAT_LONG_TESTS").is_some() { 1000 } else { 40 };
     for run in 0..runs {
         let axial = 1e2 * 10f64.powf(1.25 * (1.0 + next()));
@@ -42,16 +62,10 @@ fn throw(most: f64) {
         let initial_twist = 6.0 * next();
         let torque_per_tension = if most > 0.0 { most * (bending / axial).sqrt() * next() } else { 0.0 };
         let torsion = Torsion { initial_twist, torque_per_tension, ..Torsion::new(0.8 * bending) };
-        let mut cable = Cable::builder()
-            .points([Vector3::zeros(), Vector3::new(0.5, 0.3, 0.0), Vector3::new(0.9, 0.0, 0.2)])
-            .section(Section::from_stiffness(axial, bending, 0.1).unwrap())
-            .elements(8)
-            .clamp(At::Start)
-            .clamp(At::End)
-            .effects(Effects { torsion: Some(torsion), ..Effects::default() })
-            .integrator(Integrator { method: Method::DiscreteGradient, control: StepControl::MaxStep(1.0 / 240.0) })
-            .build()
-            .unwrap();
+        let section = Section::from_stiffness(axial, bending, 0.1).unwrap();
+        let mut cable = clamped(section, Rule::default(), Some(torsion));
+        // its bending in the norm of the law
+        let mut norm = clamped(section, Rule::new(AxialRule::Projected, BendingRule::T1), None);
         let q: Vec<f64> = cable
             .positions()
             .iter()
@@ -62,24 +76,28 @@ fn throw(most: f64) {
             (0..q.len()).map(|i| if (6..48).contains(&i) && i % 6 < 3 { 5.0 * next() } else { 0.0 }).collect();
         cable.set_coordinates(&q, &v).unwrap();
         let total = |cable: &Cable| cable.energy().total() + cable.energy_in_store();
-        let right = |law: &EnergyLaw| law.supports - law.numerical - law.rescaled + law.residual;
+        let right = |law: &EnergyLaw| law.supports - law.numerical - law.rescaled - law.shortened + law.residual;
         let held = |cable: &Cable| cable.energy().total() - cable.energy().gravity;
-        let (mut scale, mut closed) = (held(&cable), 0);
+        let mut bound = |cable: &Cable| {
+            norm.set_coordinates(cable.positions(), cable.velocities()).unwrap();
+            held(cable) - cable.energy().bending + norm.energy().bending.max(cable.energy().bending)
+        };
+        let (mut scale, mut largest) = (held(&cable), bound(&cable));
         for step in 0..30 {
-            let (before, law, splits) = (total(&cable), right(cable.energy_law()), cable.diagnostics().split_steps);
+            let (before, law) = (total(&cable), right(cable.energy_law()));
             cable.step(1.0 / 60.0).unwrap_or_else(|error| panic!("run {run}, step {step}: {error}"));
-            scale = scale.max(held(&cable));
+            (scale, largest) = (scale.max(held(&cable)), largest.max(bound(&cable)));
             let off = total(&cable) - before - (right(cable.energy_law()) - law);
-            // a shorter step after a longer one loses of the store what is not told
-            assert!(off < 1e-9 * scale, "run {run}, step {step}: {off:e} of {scale:e}");
-            if cable.diagnostics().split_steps == splits {
-                closed += 1;
-                assert!(off > -1e-9 * scale, "run {run}, step {step}: {off:e} of {scale:e}");
-            }
+            worst[0] = worst[0].max(off.abs() / scale);
+            assert!(off.abs() < 1e-10 * scale, "run {run}, step {step}: {off:e} of {scale:e}");
         }
         let made = cable.energy_law().made;
-        assert!(made <= 1e-9 * scale && closed > 0, "run {run}: {made:e}, {closed}");
+        worst[1] = worst[1].max(made / largest);
+        divided += cable.diagnostics().split_steps;
+        assert!(made <= 1e-9 * largest, "run {run}: {made:e} of {largest}");
     }
+    println!("law off by {:e} of the energy, {:e} made, {divided} steps divided", worst[0], worst[1]);
+    assert!(divided > 0);
 }
 
 /// The torque in N m at rest of the slack cable of [`motor`] that was wound up by a number of turns.
@@ -140,7 +158,10 @@ fn slack(elements: usize, step: f64) -> Cable {
 /// A motor twists a slack cable: the torque is that of the twist that its writhe leaves, and the
 /// energy law closes with the work of the motor.
 ///
-/// *Source.* The same run with twice the elements at an eighth of the step.
+/// *Source.* The same run with twice the elements at an eighth of the step, and the torque of the
+/// cable that is wound up slowly and damped. That of a start which is not at rest differs by its
+/// swing: 0.0238, 0.0471, 0.0708 and 0.0956 N m of another program after 1 to 4 turns, at most
+/// 5e-4 N m from these.
 #[test]
 fn a_motor_twists_a_slack_cable() {
     let times = [30, 60, 90, 120];
@@ -150,6 +171,11 @@ fn a_motor_twists_a_slack_cable() {
     for (coarse, fine) in coarse.iter().zip(&fine) {
         assert!((coarse / fine - 1.0).abs() < 1e-3, "{coarse} {fine}");
     }
-    println!("at rest {:?}", [1.0, 2.0].map(wound));
+    // what the cable sways by, as the motor starts at once
+    for (turns, own) in [(1.0, coarse[0]), (2.0, coarse[1])] {
+        let at_rest = wound(turns);
+        println!("{own} N m, at rest {at_rest} N m after {turns} turns");
+        assert!((own / at_rest - 1.0).abs() < 0.02, "{own} {at_rest}");
+    }
     assert!(off.abs() < 1e-9 * work, "{off:e} of {work}");
 }

@@ -88,5 +88,6 @@ fn a_wound_up_cable_coils_on_itself() {
     let share = if long { 0.15 } else { 0.1 };
     let is_coil = radius > 0.7 * RADIUS && radius < RADIUS && (torque / expected - 1.0).abs() < share;
     assert!(is_coil, "{radius} m, {torque} {expected}");
-    assert!(long || crossed == 0);
+    // measured: none at 5 turns, 8 of 5760 at 20
+    assert!(crossed <= if long { 16 } else { 0 }, "{crossed}");
 }

@@ -211,12 +211,13 @@ impl Draft {
                 effects.buoyancy = Some(buoyancy);
             }
             Feature::Torsion => {
-                effects.torsion = Some(Torsion { initial_twist: 0.5, damping: 0.2, ..Torsion::new(1e-3) });
-                self.clamps = true;
+                // half of the torque at which a straight rope that nothing pulls kinks, 2.861 pi EI/L (Greenhill 1883)
+                effects.torsion = Some(Torsion { initial_twist: 0.715, damping: 0.2, ..Torsion::new(1e-3) });
+                self.clamp_both();
             }
             Feature::Stranded => {
                 effects.torsion = Some(Torsion { damping: 1.0, ..Torsion::stranded(1e-3, 0.1, 0.02) });
-                self.clamps = true;
+                self.clamp_both();
             }
             Feature::Water => {
                 effects.drag = Some(Drag { diameter: Some(0.02), ..water().drag(1.2, 0.02) });
@@ -252,6 +253,14 @@ impl Draft {
     /// Puts a body on the end, or into the middle if one is there.
     fn carry(&mut self, kind: Kind) {
         if self.end == Hold::Free { self.end = Hold::Body(kind) } else { self.middle = Some(kind) }
+    }
+
+    /// Clamps what holds both ends, and puts a body on an end that nothing holds: one clamp bears no torque.
+    fn clamp_both(&mut self) {
+        self.clamps = true;
+        if self.end == Hold::Free {
+            self.end = Hold::Body(Kind::Dynamic);
+        }
     }
 
     /// Winds cable at the start, or at the end if it is wound at the start.

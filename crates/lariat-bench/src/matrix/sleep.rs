@@ -16,7 +16,7 @@ use super::laws::{Ended, STEP, apart};
 use super::scene::{Fault, Scene};
 use crate::stability::outcome::Check;
 use lariat_ancf::{
-    At, Buoyancy, Damping, Flow, GravityScale, LineLoad, Motion, PointLoad, Reel, RestShape, Strength, Vector3,
+    At, Buoyancy, Damping, Effects, Flow, GravityScale, LineLoad, Motion, PointLoad, Reel, RestShape, Strength, Vector3,
 };
 use lariat_rapier::CableHandle;
 
@@ -24,8 +24,10 @@ use lariat_rapier::CableHandle;
 const CHANGE: f64 = 6.0;
 /// Time in s that is run from then on.
 const AFTER: f64 = 0.75;
+/// Mass of the weight in kg.
+const MASS: f64 = 0.25;
 /// Moment of inertia in kg m^2 of the weight, a cube of 8 cm: m a^2/6.
-const INERTIA: f64 = 0.25 * 0.08 * 0.08 / 6.0;
+const INERTIA: f64 = MASS * 0.08 * 0.08 / 6.0;
 /// Largest difference in m of the world that may sleep: what sleep leaves out is slower than
 /// 2 mm/s, for this time.
 const DIFFERENCE: f64 = 2e-3 * AFTER;
@@ -67,14 +69,20 @@ fn draft(feature: Feature) -> Draft {
     if matches!(feature, Feature::LineLoad | Feature::Buoyancy | Feature::RestShape | Feature::GravityScale) {
         // given when it changes
         let damping = draft.effects.damping.take();
-        draft.effects = lariat_ancf::Effects { damping, ..Default::default() };
+        draft.effects = Effects { damping, ..Effects::default() };
     }
-    // a weight that turns on its rope rests soonest if its damping is critical
-    draft
-        .effects
-        .torsion
-        .iter_mut()
-        .for_each(|torsion| torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt());
+    // a weight that turns on its rope rests soonest if its damping is critical; of a stranded rope it is that
+    // if elongation is damped by the same time
+    let Effects { torsion, damping, .. } = &mut draft.effects;
+    if let (Some(torsion), Some(damping)) = (torsion, damping) {
+        torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt();
+        if torsion.torque_per_tension != 0.0 {
+            damping.axial = torsion.damping;
+        }
+        // a quarter of a turn from where it rests under the weight: it has 6 s
+        let unlaid = torsion.torque_per_tension * MASS * 9.81 * LENGTH / torsion.stiffness;
+        torsion.initial_twist = 0.25 - unlaid / std::f64::consts::TAU;
+    }
     if matches!(feature, Feature::Break | Feature::Prescribed) {
         draft.strength = None;
         draft.start = Hold::World;

@@ -22,7 +22,7 @@ pub struct Host {
     /// Precision of the bodies.
     pub precision: Precision,
     /// Whether cables have all effects: damping, drag in a wind, buoyancy and added mass, a rest
-    /// shape, a line load, scaled gravity.
+    /// shape, a line load, scaled gravity, and torsion between two clamps.
     pub effects: bool,
 }
 

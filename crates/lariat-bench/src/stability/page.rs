@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 const INTRODUCTION: &str = "\
 Each case runs at four host steps (1/30, 1/60, 1/240 and 1/1000 s), with 1, 4 and 8 solver iterations, over rapier3d (`f32`) and \
 rapier3d-f64: 24 hosts. With 4 iterations it runs once more with all effects (damping, drag in a wind, buoyancy and added mass, a rest \
-curvature, a line load, gravity times 0.9), where only the bounds common to all cases are checked: 8 hosts. Random scenes have one host \
+curvature, a line load, gravity times 0.9, torsion between two clamps), where only the bounds common to all cases are checked: 8 hosts. Random scenes have one host \
 each.\n\n\
 Every run must keep every number finite, gaps of attachments below 1e-3 m, and the energy balance: energy made beyond the work from \
 outside, and energy lost beyond what damping and drag dissipated, each below 1 % of the largest kinetic and strain energy of the run. \

@@ -82,7 +82,8 @@ class Torsion:
     initial_twist: float = 0.0
     """Turns by which the cable is twisted as built."""
     damping: float = 0.0
-    """Time in s by which the twist is damped, >= 0."""
+    """Time in s by which the twist is damped, >= 0: that of a damping ratio z at omega rad/s is 2 z/omega. A hook on a rope with torque per
+    tension k gets about GJ/(GJ + EA k^2) of z, and all of it with axial damping of the same time."""
     start: str | Motor | MotorCourse = "held"
     """Whether a clamp at the start holds the spin: "held", "swivel", or a motor."""
     end: str | Motor | MotorCourse = "held"

@@ -7,6 +7,8 @@ Scenarios with contact are stepped by fidelity game, which is the one that has c
 
 - rods that touch each other alone: that of the other adapters, proportional to mass, critical at the slowest mode; between two steps of
   dt the rates are taken times exp(-c dt). When all are at rest, the rest of the frames are that state.
+- rods of which an end slides: the same; the end is clamped to a body of a thousandth of the rod's mass on a slider of a world, and the loads of the
+  end are those of the body.
 - rods on obstacles: internal damping, critical at the lowest axial mode, which cannot hold a rope that slides.
 """
 
@@ -72,33 +74,32 @@ class LariatSolver:
         """Computes a scenario with this many elements per rod."""
         if len({rod.friction for rod in scenario.rods}) > 1:
             raise NotImplementedError("the larger of two coefficients of friction of rods that touch: Lariat takes the mean")
-        if scenario.quasi_static and not touches(scenario) and any(_motions(rod) for rod in scenario.rods):
+        if scenario.quasi_static and not touches(scenario) and any(not _slides(motion) for rod in scenario.rods for motion in _motions(rod)):
             raise NotImplementedError("driven ends of rods in equilibrium that touch nothing")
-        if any(motion.slides_along is not None for rod in scenario.rods for motion in _motions(rod)):
-            raise NotImplementedError("ends that slide")
         self.rests = False
         cables = [self._cable(rod, scenario, n_elements) for rod in scenario.rods]
         step, steps = self._step(scenario, n_frames)
+        world = None
+        if any(_slides(motion) for rod in scenario.rods for motion in _motions(rod)):
+            world, cables = _on_sliders(cables, scenario, step)
         frames = [[cable.positions] for cable in cables]
         twists = [[_twist(cable)] for cable in cables]
         try:
             for _ in range(n_frames - 1):
-                self._advance(cables, scenario, step, steps)
+                self._advance(cables, world, scenario, step, steps)
                 for cable, path, twist in zip(cables, frames, twists):
                     path.append(cable.positions)
                     twist.append(_twist(cable))
         except lariat.Error as error:
             raise Diverged(str(error), error.time) from error
-        paths = [np.stack(path) for path in frames]
-        directors = [
-            _directors(path, np.asarray(rod.normal, float), np.array(twist)) for rod, path, twist in zip(scenario.rods, paths, twists)
-        ]
-        return Trajectory(np.linspace(0.0, scenario.duration, n_frames), tuple(paths), tuple(directors))
+        paths, times = [np.stack(path) for path in frames], np.linspace(0.0, scenario.duration, n_frames)
+        directors = [_directors(path, _normals(rod, times), np.array(twist)) for rod, path, twist in zip(scenario.rods, paths, twists)]
+        return Trajectory(times, tuple(paths), tuple(directors))
 
-    def _advance(self, cables: list[lariat.Cable], scenario: Scenario, step: float, steps: int) -> None:
-        """Advances all rods by a frame."""
+    def _advance(self, cables: list[lariat.Cable], world: lariat.World | None, scenario: Scenario, step: float, steps: int) -> None:
+        """Advances all rods by a frame, in the world that they are in."""
         contact = touches(scenario)
-        if scenario.quasi_static and not contact:
+        if scenario.quasi_static and not contact and world is None:
             for cable in cables:
                 if cable.time == 0.0:
                     cable.equilibrium()
@@ -112,9 +113,12 @@ class LariatSolver:
             if settles and self.rests:
                 return
             before = [cable.positions for cable in cables]
-            for cable, rod in zip(cables, scenario.rods):
-                _drive(cable, rod, step)
-            if contact:
+            if world is None:
+                for cable, rod in zip(cables, scenario.rods):
+                    _drive(cable, rod, step)
+            if world is not None:
+                world.step()
+            elif contact:
                 lariat.step_together(cables, step, steps=at_once)
             else:
                 for cable in cables:
@@ -151,13 +155,19 @@ class LariatSolver:
             elif rod.condition(end) is EndCondition.CLAMPED:
                 cable.clamp(at)
         for load in rod.loads:
-            cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
+            if not _slides(rod.motion(load.at)):
+                cable.add_load(0.0 if load.at is End.START else rod.length, load.force)
         return cable
 
 
 def _motions(rod: Rod) -> list[Any]:
     """Returns the motions of the driven ends."""
     return [motion for motion in (rod.start_motion, rod.end_motion) if motion is not None]
+
+
+def _slides(motion: Any) -> bool:
+    """Returns whether an end of this motion, or of none, slides."""
+    return motion is not None and motion.slides_along is not None
 
 
 def _torsion(rod: Rod, slopes: Array) -> lariat.Torsion:
@@ -178,6 +188,34 @@ def _torsion(rod: Rod, slopes: Array) -> lariat.Torsion:
 def _twist(cable: lariat.Cable) -> float:
     """Returns the twist in rad of a cable between its ends; 0 without torsion."""
     return sum(reading.twist for reading in cable.torsion())
+
+
+def _on_sliders(cables: list[lariat.Cable], scenario: Scenario, step: float) -> tuple[lariat.World, list[lariat.Cable]]:
+    """Returns a world with the rods, whose ends that slide are clamped to bodies on sliders."""
+    if scenario.obstacles:
+        raise NotImplementedError("ends that slide, beside obstacles")
+    world = lariat.World(scenario.gravity, dt=step, sleep_speed=0.0)
+    held = world.add_body(lariat.RigidBody.fixed())
+    inside = [world.add_cable(cable) for cable in cables]
+    for cable, rod in zip(inside, scenario.rods):
+        for end, at in ENDS:
+            motion = rod.motion(end)
+            if motion is None:
+                continue
+            if not _slides(motion) or np.any(motion.displacement):
+                raise NotImplementedError("ends that are led, beside ends that slide")
+            place = cable.positions[0 if end is End.START else -1]
+            mass = 1e-3 * rod.material.density * rod.area * rod.length
+            builder = lariat.RigidBody.dynamic(translation=place, gravity_scale=0.0, can_sleep=False)
+            body = world.add_body(builder, [lariat.Collider.ball(rod.radius, mass=mass, sensor=True)])
+            joint = lariat.PrismaticJoint.builder(motion.axis.tolist(), local_anchor1=place, local_anchor2=[0.0, 0.0, 0.0])
+            world.multibody_joints.insert(held, body, joint)
+            cable.release(at)
+            world.attach(cable, at, body, kind="clamp")
+            for load in rod.loads:
+                if load.at is end:
+                    world.rigid_bodies[body].add_force(load.force)
+    return world, inside
 
 
 def touches(scenario: Scenario) -> bool:
@@ -218,21 +256,29 @@ def _drive(cable: lariat.Cable, rod: Rod, step: float) -> None:
 
 
 def _slopes(rod: Rod, n_elements: int) -> Array:
-    """Slopes dr/ds at the nodes: central differences of the centre line where it has points beside the node, one-sided at the ends."""
-    fine = max(1, 400 // n_elements) * n_elements
-    points: Array = rod.nodes(fine)
-    h = rod.length / fine
-    gradient: Array = np.gradient(points, h, axis=0, edge_order=2 if fine > 1 else 1)
-    return gradient[:: fine // n_elements]
+    """Slopes dr/ds at the nodes: those of the centre line at its own points by differences of second order, linear between them. The directions of
+    clamps are those of its ends; those of its first and last segments would tilt the clamps of a bent rod by half a segment's turn."""
+    points: Array = np.asarray(rod.centerline, float)
+    drawn: Array = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    arc: Array = drawn if rod.rest_arc_length is None else np.asarray(rod.rest_arc_length, float)
+    gradient: Array = np.gradient(points, arc, axis=0, edge_order=2 if len(points) > 2 else 1)
+    at = np.linspace(0.0, rod.length, n_elements + 1)
+    return np.stack([np.interp(at, arc, component) for component in gradient.T], axis=1)
 
 
-def _directors(path: Array, normal: Array, twists: Array) -> Array:
-    """Returns the normal at the middles of the elements of each frame: carried by the smallest rotation from one tangent to the next, and turned
-    by its share of the twist of the frame."""
+def _normals(rod: Rod, times: Array) -> Array:
+    """Returns the normal at the start of a rod at some times: it turns with the start."""
+    normal, motion = np.asarray(rod.normal, float), rod.start_motion
+    return np.stack([normal if motion is None else motion.pose(time)[1] @ normal for time in times])
+
+
+def _directors(path: Array, normals: Array, twists: Array) -> Array:
+    """Returns the normal at the middles of the elements of each frame: that at the start, carried by the smallest rotation from one tangent to the
+    next, and turned by its share of the twist of the frame."""
     tangents = np.diff(path, axis=1)
     tangents /= np.linalg.norm(tangents, axis=2, keepdims=True)
     directors = np.empty_like(tangents)
-    first = normal - (tangents[:, 0] @ normal)[:, None] * tangents[:, 0]
+    first = normals - np.sum(tangents[:, 0] * normals, axis=1)[:, None] * tangents[:, 0]
     directors[:, 0] = first / np.linalg.norm(first, axis=1, keepdims=True)
     for i in range(1, tangents.shape[1]):
         a, b, d = tangents[:, i - 1], tangents[:, i], directors[:, i - 1]

@@ -16,9 +16,16 @@
 //! the bodies, too: one more row g of B, with 1/k on its place of the diagonal of C, and -w in P. (The least energy k y^2/2 of the rates y that the
 //! row may be off by is that of a spring between them.)
 //!
+//! *What is factored* is A' = A + s B^T B in place of A, whose C'^-1 is that of A plus s on the diagonal of the rows of B: for long steps A is
+//! almost singular, since a cable that nothing holds may move as it is. With s of the size of the diagonal of A at the ends the rounding of Z
+//! is that of A.
+//!
 //! # Validity
 //!
-//! A is one linearised implicit Euler step; if compression makes it indefinite, D and K are halved until it is positive definite.
+//! A is one linearised implicit Euler step. The cable must be stable while the bodies hold still: if it is not, D and K are halved until it is. By the
+//! additivity of inertia (Haynsworth 1968) it is stable where A' and C' have as many negative eigenvalues, so that neither a cable whose ends are
+//! pushed together, nor one that the spin of its ends alone keeps from kinking, counts as unstable; their Z may be indefinite.
+//! Forces and moments of the ends turn with them: this stiffness of the second order, of the size of h^2 times the moment, is not in Z.
 
 use super::link::{End, Link};
 use crate::error::Raise;
@@ -41,28 +48,8 @@ impl Link {
         for end in &self.ends {
             cable.detach(At::Node(end.node))?;
         }
-        let level = Level::new();
-        let mut factorisation = Factorisation::default();
-        let mut share = 1.0;
-        let is_positive_definite = (0..=HALVINGS).any(|halving| {
-            share = 0.5f64.powi(halving);
-            let mut a = combine(&mass, &damping, share * h, &stiffness, share * h * h);
-            cable.apply_supports(&mut a);
-            matches!(factorisation.factor(level, &a), Ok(Definiteness::PositiveDefinite))
-        });
-        let none = || {
-            let message =
-                format!("cable {:?}: no impedance at t = {} s for a step of {h} s", cable.name(), cable.time());
-            Raise::new("ImpedanceError", message)
-                .with("cable", cable.name())
-                .with("time", cable.time())
-                .with("value", h)
-        };
-        if !is_positive_definite {
-            return Err(none());
-        }
         let size = cable.positions().len();
-        let (mut rows, mut maps) = (Vec::new(), Vec::new());
+        let (mut rows, mut maps): (Vec<Vec<f64>>, Vec<Map>) = (Vec::new(), Vec::new());
         for (i, end) in self.ends.iter().enumerate() {
             let lever = end.motion.rotation * end.anchor;
             for axis in 0..3 {
@@ -89,8 +76,7 @@ impl Link {
             }
         }
         let firm = rows.len();
-        let mut supple = Vec::new();
-        for TwistBorder { nodes, stiffness, damping, gradient, .. } in borders {
+        for TwistBorder { nodes, gradient, .. } in &borders {
             let spin = |(i, end): (usize, &End)| {
                 end.direction?;
                 let sign = nodes.iter().zip([1.0, -1.0]).find(|(node, _)| **node == end.node)?.1;
@@ -99,25 +85,79 @@ impl Link {
                 Some((i, Vector3::zeros(), slope.try_normalize(0.0)? * sign))
             };
             maps.push(self.ends.iter().enumerate().filter_map(spin).collect());
-            rows.push(held_out(&cable, gradient));
-            supple.push((share * h * (damping + h * stiffness)).recip());
+            rows.push(held_out(&cable, gradient.clone()));
         }
         let count = rows.len();
-        let mut border = SchurComplement::default();
-        border.begin(factorisation.nodes(), count);
-        rows.iter().enumerate().for_each(|(k, row)| border.set(k, 0, row));
-        border.complete(level, &factorisation);
-        let mut compliance = DMatrix::zeros(count, count);
-        border.subtract_from(level, compliance.as_mut_slice());
-        let mut compliance = -compliance;
-        supple.iter().enumerate().for_each(|(k, own)| compliance[(firm + k, firm + k)] += own);
         let p = DMatrix::from_fn(count, 6 * self.ends.len(), |r, c| {
             let own = maps[r].iter().filter(|(end, ..)| *end == c / 6);
             own.map(|(_, linear, angular)| if c % 6 < 3 { linear[c % 6] } else { angular[c % 6 - 3] }).sum::<f64>()
         });
-        let z = p.transpose() * compliance.try_inverse().ok_or_else(none)? * p;
-        if z.iter().all(|x| x.is_finite()) { Ok(z) } else { Err(none()) }
+        let of_share = |share: f64| -> Option<DMatrix<f64>> {
+            let mut a = combine(&mass, &damping, share * h, &stiffness, share * h * h);
+            cable.apply_supports(&mut a);
+            let shifts: Vec<f64> = rows[..firm].iter().map(|row| shift(&mut a, row)).collect();
+            let (level, mut factorisation) = (Level::new(), Factorisation::default());
+            let negative = match factorisation.factor(level, &a).ok()? {
+                Definiteness::PositiveDefinite => 0,
+                Definiteness::Indefinite { negative } => negative?,
+            };
+            let mut border = SchurComplement::default();
+            border.begin(factorisation.nodes(), count);
+            rows.iter().enumerate().for_each(|(k, row)| border.set(k, 0, row));
+            border.complete(level, &factorisation);
+            let mut compliance = DMatrix::zeros(count, count);
+            border.subtract_from(level, compliance.as_mut_slice());
+            let mut compliance = -compliance;
+            for (k, TwistBorder { stiffness, damping, .. }) in borders.iter().enumerate() {
+                compliance[(firm + k, firm + k)] += (share * h * (damping + h * stiffness)).recip();
+            }
+            let mut held = inverse_with(compliance, negative)?;
+            shifts.iter().enumerate().for_each(|(k, shift)| held[(k, k)] -= shift);
+            let z = p.transpose() * held * &p;
+            z.iter().all(|x| x.is_finite()).then_some(z)
+        };
+        (0..=HALVINGS).find_map(|halving| of_share(0.5f64.powi(halving))).ok_or_else(|| {
+            let message =
+                format!("cable {:?}: no impedance at t = {} s for a step of {h} s", cable.name(), cable.time());
+            Raise::new("ImpedanceError", message)
+                .with("cable", cable.name())
+                .with("time", cable.time())
+                .with("value", h)
+        })
     }
+}
+
+/// Ends, and the velocity and the angular velocity by which each of them moves a row.
+type Map = Vec<(usize, Vector3<f64>, Vector3<f64>)>;
+
+/// Adds s b b^T to a matrix, with a row b that has entries at one node alone, and returns s: the largest entry of the diagonal where b has
+/// entries, over the square of b.
+fn shift(a: &mut BlockTridiagonal, row: &[f64]) -> f64 {
+    let Some(node) = row.iter().position(|x| *x != 0.0).map(|at| at / 6) else { return 0.0 };
+    let (own, block) = (&row[6 * node..6 * node + 6], &mut a.diag[node].0);
+    let largest = (0..6).filter(|&i| own[i] != 0.0).map(|i| block[i][i].abs()).fold(0.0, f64::max);
+    let shift = largest / own.iter().map(|x| x * x).sum::<f64>();
+    for (column, y) in block.iter_mut().zip(own) {
+        column.iter_mut().zip(own).for_each(|(entry, x)| *entry += shift * x * y);
+    }
+    shift
+}
+
+/// Returns the inverse of a symmetric matrix that has a number of negative eigenvalues; `None` if it has others, or is singular.
+fn inverse_with(matrix: DMatrix<f64>, negative: usize) -> Option<DMatrix<f64>> {
+    // rows are of different units: each by its own size
+    let scales: Vec<f64> = matrix.diagonal().iter().map(|x| x.abs().sqrt().recip()).collect();
+    let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |r, c| {
+        0.5 * (matrix[(r, c)] + matrix[(c, r)]) * scales[r] * scales[c]
+    });
+    if scaled.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let inverse = scaled.clone().try_inverse()?;
+    if scaled.symmetric_eigenvalues().iter().filter(|x| **x <= 0.0).count() != negative {
+        return None;
+    }
+    Some(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |r, c| inverse[(r, c)] * scales[r] * scales[c]))
 }
 
 /// Returns derivatives by the coordinates without those that the supports hold.

@@ -336,7 +336,8 @@ table! {
         poisson: Option<f64> = ("none"), Kind::Number(NOT_NEGATIVE);
         /// Turns by which the cable is twisted as it is built, right-handed positive.
         initial_twist: f64 = 0.0, Kind::Number(ANY);
-        /// Time by which the twist is damped: that of a damping ratio z at omega rad/s is 2 z/omega.
+        /// Time by which the twist is damped: that of a damping ratio z at omega rad/s is 2 z/omega. A hook on a rope with
+        /// `torque_per_tension` k gets about GJ/(GJ + EA k^2) of z, and all of it if `axial` of its `damping` is the same time.
         damping: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "s";
         /// Torque per tension while twist is held: `c d` of a stranded rope with the torque factor c and the diameter d, positive for a right-hand lay. EA is then that at held twist.
         torque_per_tension: f64 = 0.0, Kind::Number(ANY), "m";

@@ -158,7 +158,9 @@ pub struct Torsion {
     #[serde(default)]
     pub initial_twist: f64,
     /// Time in s by which it damps, >= 0; default 0: M = K (Phi + time d Phi/dt). A damping ratio z
-    /// at omega rad/s is 2 z/omega.
+    /// at omega rad/s is 2 z/omega. A hook that swings on a [stranded](Self::stranded) rope gets
+    /// about GJ/(GJ + EA k^2) of it, k the torque per tension, since its rope stretches as it
+    /// turns; all of it with axial damping of the same time.
     #[serde(default)]
     pub damping: f64,
     /// Torque per tension in m while twist is held: `c d` of a stranded rope with the torque factor

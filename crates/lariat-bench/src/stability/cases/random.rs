@@ -69,8 +69,15 @@ fn build(w: &mut TestWorld, recipe: Recipe) -> Result<Script, Fault> {
             2 => rope.fidelity(Fidelity::Engineering),
             _ => rope.fidelity(Fidelity::Game),
         };
-        let end = if recipe.choose(29, 4) == 0 { End::ClampedOn(ball, [0.0; 3]) } else { End::On(ball, [0.0; 3]) };
-        w.rope(rope, before, end)?;
+        let clamps = recipe.choose(29, 4) == 0;
+        let end = if clamps { End::ClampedOn(ball, [0.0; 3]) } else { End::On(ball, [0.0; 3]) };
+        // with effects, clamps at both ends hold the twist of a rope that has torsion
+        let start = match before {
+            End::Fixed if clamps && w.host.effects => End::Clamped,
+            End::On(body, anchor) if clamps && w.host.effects => End::ClampedOn(body, anchor),
+            other => other,
+        };
+        w.rope(rope, start, end)?;
         before = End::On(ball, [0.0; 3]);
         loads.push(ball);
         at = next;

@@ -2,7 +2,7 @@
 
 use lariat_ancf::{
     Buoyancy, Cable, CableBuilder, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad,
-    RestShape, Section, StepControl, Vector3,
+    RestShape, Section, StepControl, Torsion, Vector3,
 };
 
 /// E = 1e9 Pa, 4000 kg/m^3, square of 1 cm: EA = 1e5 N, 0.4 kg/m.
@@ -27,7 +27,7 @@ pub fn straight(a: [f64; 3], b: [f64; 3], section: Section) -> CableBuilder {
 }
 
 /// All effects, mild: damping, drag in a cross wind of 1.1 m/s, buoyancy in air, a rest curvature
-/// of 0.05 /m, a line load of 5 % of the weight, gravity times 0.9.
+/// of 0.05 /m, a line load of 5 % of the weight, gravity times 0.9. Of [`torsion`] see there.
 pub fn all_effects(weight_per_length: f64) -> Effects {
     let mut drag = Drag::new(1.2, 1.2, 0.02, Flow::uniform(Vector3::new(0.5, 0.0, 1.0)));
     drag.diameter = Some(0.01);
@@ -44,4 +44,11 @@ pub fn all_effects(weight_per_length: f64) -> Effects {
         contact: None,
         torsion: None,
     }
+}
+
+/// Torsion of a solid round section of a bending stiffness (N m^2) and a Poisson number of 0.3, twisted by a quarter
+/// of a turn: for cables that two clamps hold.
+pub fn torsion(bending_stiffness: f64) -> Option<Torsion> {
+    let torsion = Torsion::round(bending_stiffness, 0.3).ok().filter(|torsion| torsion.stiffness > 0.0)?;
+    Some(Torsion { initial_twist: 0.25, damping: 0.01, ..torsion })
 }

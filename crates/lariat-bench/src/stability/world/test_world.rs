@@ -3,11 +3,11 @@
 use super::convert::{from_rapier, to_rapier};
 use super::engine::rapier::prelude::*;
 use super::engine::{AttachmentHandle, AttachmentKind, CableHandle, CableSet, Error};
-use super::materials::all_effects;
+use super::materials::{all_effects, torsion};
 use super::monitor::Monitor;
 use super::peers::{End, Joints, PeerRope};
 use crate::stability::host::{CableModel, Host};
-use lariat_ancf::{At, Cable, CableBuilder, Snapshot, Vector3};
+use lariat_ancf::{At, Cable, CableBuilder, Method, Snapshot, Vector3};
 
 /// Any error of a case.
 pub type Fault = Box<dyn std::error::Error + Send + Sync>;
@@ -170,6 +170,10 @@ impl TestWorld {
             let own = cable.effects().clone();
             let mut effects = all_effects(9.81 * cable.elements()[0].section.mass_per_length);
             effects.damping = own.damping.or(effects.damping);
+            let is_clamp = |end: End| matches!(end, End::Clamped | End::ClampedOn(..));
+            if is_clamp(start) && is_clamp(end) && cable.integrator().method == Method::DiscreteGradient {
+                effects.torsion = torsion(cable.elements()[0].section.bending_stiffness);
+            }
             cable.set_effects(effects)?;
         }
         let world = &mut self.physics;
