@@ -397,7 +397,7 @@ fn a_rope_that_slides_over_facets_is_told() {
     set.set_contact(rope, Contact::with_friction(0.3).with_radius(0.01)).unwrap();
     let from = Vector3::new(2.0, 0.01, 0.0);
     let pulled = Motion::hermite(0.0, 2.0, (from, Vector3::x()), (from + 2.0 * Vector3::x(), Vector3::x()));
-    set.get_mut(rope).unwrap().set_motion(At::End, pulled).unwrap();
+    set.get_mut(rope).unwrap().set_motion(20, pulled).unwrap();
     run(&mut world, &mut set, 60);
     assert!(!is_told(&set, &world), "{:?}", set.warnings(&world));
 }
