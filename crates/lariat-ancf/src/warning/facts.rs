@@ -10,6 +10,7 @@ impl Warning {
             Warning::UntouchedObstacles { .. }
             | Warning::SlowReel { .. }
             | Warning::HighRestitution { .. }
+            | Warning::DeadCables { .. }
             | Warning::IdleTorsion { .. }
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
@@ -28,6 +29,7 @@ impl Warning {
             | Warning::RoundedEnds { .. }
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
+            | Warning::RunsOver { .. }
             | Warning::CutShort { .. }
             | Warning::TwistSlips { .. }
             | Warning::KinksThroughItself { .. } => Level::Wrong,
@@ -73,6 +75,8 @@ impl Warning {
             | Warning::CoarseContact { cable, .. }
             | Warning::HighRestitution { cable, .. }
             | Warning::FrictionLags { cable, .. }
+            | Warning::DeadCables { cable, .. }
+            | Warning::RunsOver { cable, .. }
             | Warning::CutShort { cable, .. }
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
@@ -120,6 +124,8 @@ impl Judged for Warning {
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
+            | Warning::DeadCables { .. }
+            | Warning::RunsOver { .. }
             | Warning::IdleTorsion { .. }
             | Warning::KinksThroughItself { .. }
             | Warning::MomentAlong { .. }
@@ -187,7 +193,8 @@ impl Judged for Warning {
             }
             Warning::SoftMaterial { youngs_modulus_pa, .. } => -youngs_modulus_pa,
             Warning::Thick { diameter_m, .. } => *diameter_m,
-            Warning::HighRestitution { restitution, .. } => *restitution,
+            Warning::HighRestitution { restitution, .. } | Warning::DeadCables { restitution, .. } => *restitution,
+            Warning::RunsOver { run_m, .. } => *run_m,
             Warning::UntouchedObstacles { count, .. } => *count as f64,
             Warning::IdleTorsion { .. } => 0.0,
         }

@@ -24,7 +24,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 24] = [
+const LAWS: [(Law, bool); 26] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -49,6 +49,8 @@ const LAWS: [(Law, bool); 24] = [
     (|_, cable, _| slow_reel(cable), true),
     (|watch, cable, error| watch.layers.kink(cable).filter(|_| error.is_none()), true),
     (Watch::green_strain, true),
+    (|watch, cable, _| watch.contacts.runs_over(cable), true),
+    (|_, cable, _| Contacts::dead(cable), true),
 ];
 
 /// Layout: the bit of warnings about sizes.
