@@ -72,7 +72,7 @@ fn a_rope_that_runs_over_a_rope_is_told_of() {
     for (friction, share, told) in [(0.4, 1.2, true), (0.4, 1.0, false), (0.0, 1.2, false)] {
         let mut world = hooked(friction, [2.0, 2.0 * share]);
         let mut watches: Vec<Watch> = world.cables.iter().map(Watch::new).collect();
-        world.run(30, |world| {
+        world.run(12, |world| {
             for (watch, cable) in watches.iter_mut().zip(&world.cables) {
                 watch.note(cable);
             }
