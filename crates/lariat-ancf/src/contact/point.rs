@@ -9,7 +9,7 @@ use super::path::ObstacleStep;
 use super::rebound::{Push, Rebound, is_resolved, thrown};
 use crate::element::shape::combine;
 use crate::obstacle::Patch;
-use crate::scales::contact::{CLOSING_TIME, LIFTED, SLOW};
+use crate::scales::contact::{CLOSING_TIME, IMPACT, LIFTED, SLOW};
 use crate::state::{ContactMemory, Key};
 use nalgebra::Vector3;
 
@@ -145,7 +145,7 @@ impl ContactPoint {
         let before = self.law.at(start + self.offset).energy;
         let after = self.law.at(depth + self.offset - self.closing).energy;
         let kept = if after < before { self.speed * (after / before).sqrt() } else { self.speed };
-        let speed = kept.max(closes);
+        let speed = if closes > IMPACT { kept.max(closes) } else { kept };
         if speed > SLOW { speed } else { 0.0 }
     }
 

@@ -38,7 +38,8 @@
 //! vs is the largest mean speed with which the surfaces came together in a step since they touched,
 //! and goes with the root of W(D) while that falls. So `2 W/vs^2` is the mass per length that the
 //! contact carries, whatever bodies, cables and stiffness make it up, found from what it took up.
-//! Where vs < v the contact was pressed or lies, and u is that of the cable alone.
+//! It counts from 10 cm/s on, and until it is less than v: what is slower is pressed, or lies, and
+//! u is that of the cable alone.
 //!
 //! Where p is k d it is a damper of the contact that opens, of five times the critical damping,
 //! that does not pull: what fell to a depth comes up in some `10/omega`, and leaves with a tenth of
@@ -63,8 +64,8 @@
 //! A bounce at v reaches 5 um. A contact that is relieved comes up by its depth, some um, at v; one
 //! that rests has `s = 0` and the law of depth. Without restitution a cable leaves with at most
 //! 0.11 of its speed, 1 % of the height of its fall, and what lands on it likewise. Between cables
-//! that is so where they come with more than v; where they do not, the law is that of depth. Of a
-//! cable that bends, contact takes what is stored in it, and not what bending stores.
+//! that is so where they come with 10 cm/s or more; where they do not, the law is that of depth. Of
+//! a cable that bends, contact takes what is stored in it, and not what bending stores.
 //!
 //! # References
 //!

@@ -27,7 +27,7 @@ fn touching(bar: lariat_ancf::CableBuilder) -> Cable {
 }
 
 /// Free bars that cross and hit each other in their middles do not bounce: they part with at most
-/// 0.11 of the speed with which they met and 1 cm/s, those of the law of contact, at every step,
+/// 0.13 of the speed with which they met and 1 cm/s, about those of the law of contact, at every step,
 /// stiffness, mass and speed; momentum stays and no energy is made.
 ///
 /// *Source.* Impact without restitution, of which the law leaves a tenth (docs/theory.md, 7.5).
@@ -58,13 +58,15 @@ fn bars_do_not_bounce_off_each_other() {
                     }
                     // what comes up does so in some 10/omega
                     let time = gap / speed + 4.0 / rate + 15.0 * (reduced / stiffness).sqrt();
-                    let made = world.run((60.0 * time).ceil() as usize, |_| {});
+                    world.run((60.0 * time).ceil() as usize, |_| {});
+                    let held = 0.5 * LENGTH * (masses[0] + masses[1]) * speed * speed;
+                    let made = world.cables[0].energy_law().made / held;
                     let velocity = |k: usize| world.cables[k].momentum().linear.y / (masses[k] * LENGTH);
                     let share = (velocity(1) - velocity(0)) / speed;
                     let off = (world.momentum().0 - before).norm() / before.norm();
                     (row, drift) = (row.max(share), drift.max(off));
                     let name = format!("E {modulus:.0e}, {rate} Hz, {masses:?} kg/m, {speed} m/s");
-                    if share.abs() > 0.11 + 0.01 / speed || off > 1e-10 || made > 1e-8 {
+                    if share.abs() > 0.13 + 0.01 / speed || off > 1e-10 || made > 1e-9 {
                         failed.push(format!("{name}: {share:.3} {off:.0e} {made:.0e}"));
                     }
                 }
@@ -78,7 +80,7 @@ fn bars_do_not_bounce_off_each_other() {
 }
 
 /// A cube that falls 0.1 m on two bars on a floor rises above where it touched them by at most
-/// 1.2 % of its fall, whatever it weighs, at every step and stiffness. No energy is made.
+/// 0.5 % of its fall, whatever it weighs, at every step and stiffness. No energy is made.
 ///
 /// *Source.* Impact without restitution, of which the law leaves a tenth of the speed
 /// (docs/theory.md, 7.5).
@@ -106,9 +108,9 @@ fn a_heavy_body_does_not_bounce_off_a_cable() {
                 body.force = -GRAVITY * weight * up();
                 let mut world = World::new(bars.into(), vec![body]);
                 world.integrator = steps(rate);
-                let (mut top, mut lowest, mut time, mut made) = (-fall, fall, 0.0, 0.0f64);
+                let (mut top, mut lowest, mut time) = (-fall, fall, 0.0);
                 while time < 0.6 {
-                    made = made.max(world.part(1.0 / rate));
+                    world.part(1.0 / rate);
                     time += 1.0 / rate;
                     let height = world.bodies[0].position.y - 2.0 * RADIUS - 0.15;
                     lowest = height.min(lowest);
@@ -117,9 +119,10 @@ fn a_heavy_body_does_not_bounce_off_a_cable() {
                         top = height.max(top);
                     }
                 }
-                let (share, made) = (top / fall, made / (weight * GRAVITY * fall));
+                let made = world.cables[0].energy_law().made / (weight * GRAVITY * fall);
+                let share = top / fall;
                 worst = worst.max(share);
-                if lowest > 0.0 || share > 0.012 || made > 1e-8 {
+                if lowest > 0.0 || share > 0.005 || made > 1e-9 {
                     failed.push(format!("E {modulus:.0e}, {rate} Hz, {weight} kg: {share:.3} {made:.0e}"));
                 }
             }
