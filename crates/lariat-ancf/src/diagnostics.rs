@@ -53,6 +53,9 @@ pub struct Diagnostics {
     /// Steps of the discrete gradient in which centre lines of cables went through each other.
     #[serde(default)]
     pub crossed_steps: u64,
+    /// Steps of the discrete gradient at the end of which it touched another cable or itself.
+    #[serde(default)]
+    pub touching_steps: u64,
     /// Steps of the discrete gradient whose friction did not settle on the normal forces of the
     /// step itself.
     #[serde(default)]
@@ -91,7 +94,7 @@ macro_rules! by_field {
     ($a:expr, $b:expr, $op:expr, $rest:expr) => {
         by_field!(@ $a, $b, $op, $rest; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
-            load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, lagging_steps,
+            load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, touching_steps, lagging_steps,
             unresolved_steps, cut_steps, twist_slips, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $rest:expr; $($field:ident),*) => {

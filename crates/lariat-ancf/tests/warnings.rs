@@ -323,6 +323,8 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },
         Warning::CoarseContact { cable: cable(), arc_length_m: 0.5, turn_rad: 1.0, enough },
         Warning::HighRestitution { cable: cable(), restitution: 1.0 },
+        Warning::DeadCables { cable: cable(), restitution: 0.5 },
+        Warning::RunsOver { cable: cable(), arc_length_m: 0.5, run_m: 0.1 },
         Warning::FrictionLags { cable: cable(), steps },
         Warning::IdleTorsion { cable: cable() },
         Warning::CoarseTwist { cable: cable(), ratio: 2.0, elements, enough },

@@ -45,7 +45,8 @@
 //!
 //! Restitution of contacts with obstacles and bodies up to `(1 - a)/(1 + a) = 15/17`: with more a
 //! mass that leaves has more of H than it came with, for H holds the store of its jump of velocity,
-//! `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other ([`pairs`](super::pairs)) it is 0. Steps
+//! `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other
+//! ([`pairs`](super::pairs)) it is 0. Steps
 //! of which the velocity across contacts has less energy than the tolerance of the law take none,
 //! and do no work for it.
 //!
@@ -66,7 +67,7 @@ use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::element::assembly::add_force;
 use crate::one_leg::OneLeg;
-use crate::scales::contact::{GIVEN, RISE, SLOW};
+use crate::scales::contact::{GIVEN, RESOLVED, RISE, SLOW};
 use nalgebra::Vector3;
 
 /// An end of a step.
@@ -110,8 +111,9 @@ impl ContactPoint {
             self.came = if across > 0.0 { -self.came.abs() } else { self.came.max(0.0) };
         } else if self.rebound.is_bound() {
             // what a step resolves comes up by itself
-            let thrown = self.thrown(self.now.depth + self.offset - self.closing);
-            rebound = if self.is_resolved(h, thrown) { RISE * thrown } else { 0.0 };
+            let depth = self.now.depth + self.offset - self.closing;
+            let returns = self.returns(depth, self.speed_after(h));
+            rebound = if h * returns < RESOLVED * depth { RISE * returns } else { 0.0 };
         }
         let over = across - rebound;
         if over <= 0.0 && !gives {

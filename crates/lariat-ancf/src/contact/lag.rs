@@ -25,14 +25,15 @@
 //!
 //! # Validity
 //!
-//! Contacts with obstacles; between cables the bound is that of the last step. Friction of the
-//! first touch acts over the whole step, although the cable touches in a part of it. Forty rounds
-//! are taken at most; steps that need more are [counted](crate::Diagnostics::lagging_steps).
+//! Friction of the first touch acts over the whole step, although the cable touches in a part of
+//! it. Forty rounds are taken at most; steps that need more are
+//! [counted](crate::Diagnostics::lagging_steps).
 //!
 //! # Alternatives considered
 //!
 //! What was tried, and what it gave: docs/decisions/contact.md.
 
+use super::point::ContactPoint;
 use super::step::ContactStep;
 use crate::scales::contact::LAG;
 
@@ -40,25 +41,35 @@ impl ContactStep {
     /// Returns the sum in N by which friction misses its bounds by the normal forces of the present
     /// iterate, and notes whether that is much.
     pub fn find_lag(&mut self) -> f64 {
-        let (mut missed, mut all) = (0.0, 0.0);
-        for point in self.points.iter().filter(|point| point.friction > 0.0) {
-            let due = point.friction * point.now.normal_force;
-            all += due;
-            missed += match point.now.slides {
-                Some(_) => (due - point.bound).abs(),
-                None => (point.now.friction.norm() - due).max(0.0),
-            };
-        }
+        let [missed, all] = lag(self.points.iter());
         self.lags = missed > LAG * all;
         missed
     }
 
-    /// Sets the bounds of friction by the normal forces of the present iterate, if they miss them
-    /// much.
+    /// Sets the bounds of friction by the normal forces of the present iterate.
     pub fn renew_friction(&mut self) {
-        for point in self.points.iter_mut().filter(|point| self.lags && point.friction > 0.0) {
-            point.bound = (point.friction * point.now.normal_force).max(f64::MIN_POSITIVE);
-            point.renewed = true;
-        }
+        renew(self.points.iter_mut());
+    }
+}
+
+/// Returns the sums in N by which friction misses its bounds, and of these.
+pub(super) fn lag<'a>(points: impl Iterator<Item = &'a ContactPoint>) -> [f64; 2] {
+    let (mut missed, mut all) = (0.0, 0.0);
+    for point in points.filter(|point| point.friction > 0.0) {
+        let due = point.friction * point.now.normal_force;
+        all += due;
+        missed += match point.now.slides {
+            Some(_) => (due - point.bound).abs(),
+            None => (point.now.friction.norm() - due).max(0.0),
+        };
+    }
+    [missed, all]
+}
+
+/// Sets the bounds of friction by the present normal forces.
+pub(super) fn renew<'a>(points: impl Iterator<Item = &'a mut ContactPoint>) {
+    for point in points.filter(|point| point.friction > 0.0) {
+        point.bound = (point.friction * point.now.normal_force).max(f64::MIN_POSITIVE);
+        point.renewed = true;
     }
 }

@@ -9,7 +9,7 @@ use super::path::ObstacleStep;
 use super::rebound::{Push, Rebound, is_resolved, thrown};
 use crate::element::shape::combine;
 use crate::obstacle::Patch;
-use crate::scales::contact::{CLOSING_TIME, LIFTED};
+use crate::scales::contact::{CLOSING_TIME, IMPACT, LIFTED, SLOW};
 use crate::state::{ContactMemory, Key};
 use nalgebra::Vector3;
 
@@ -36,6 +36,8 @@ pub(in crate::contact) struct ContactPoint {
     /// Speed in m/s across it with which the cable came when it first touched, negative once it
     /// leaves; 0 without restitution, and if it comes again.
     pub came: f64,
+    /// Speed in m/s with which came what it stores; 0 where that was pressed.
+    pub speed: f64,
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
     pub patch: Patch,
@@ -109,6 +111,7 @@ impl ContactPoint {
             }
             self.spring = memory.spring;
             self.came = memory.came;
+            self.speed = memory.speed;
             self.bound = self.friction * memory.force;
         }
         self.rebound = Rebound::default();
@@ -127,9 +130,23 @@ impl ContactPoint {
         is_resolved(&self.law, h, self.mass, speed)
     }
 
-    /// Returns the speed in m/s at which it would be thrown off from a depth (m), offset and all.
-    pub fn thrown(&self, depth: f64) -> f64 {
-        thrown(&self.law, self.mass, depth)
+    /// Returns the speed in m/s with which a depth (m), offset and all, would be left: that at
+    /// which its store throws its own mass, and no more than what came with a `speed`.
+    pub fn returns(&self, depth: f64, speed: f64) -> f64 {
+        let thrown = thrown(&self.law, self.mass, depth);
+        if speed > 0.0 { thrown.min(speed) } else { thrown }
+    }
+
+    /// Returns its speed at the end of a step of length `h` (s): what is stored comes up with the
+    /// same share of the speed with which it came.
+    pub fn speed_after(&self, h: f64) -> f64 {
+        let Evaluation { start, depth, .. } = self.now;
+        let closes = (depth - start) / h;
+        let before = self.law.at(start + self.offset).energy;
+        let after = self.law.at(depth + self.offset - self.closing).energy;
+        let kept = if after < before { self.speed * (after / before).sqrt() } else { self.speed };
+        let speed = if closes > IMPACT { kept.max(closes) } else { kept };
+        if speed > SLOW { speed } else { 0.0 }
     }
 
     /// Returns whether restitution gives back what comes: of one that touches first, or came and
@@ -147,11 +164,21 @@ impl ContactPoint {
         let normal = self.patch.over_step(obstacle, &self.start, &Vector3::zeros(), None).normal;
         let opens = normal.dot(&moves()) / obstacle.h;
         if self.restitution == 0.0 {
-            self.rebound = Rebound::dead(self.thrown(self.depth_before), opens, b);
+            self.find_loss(opens, b);
             return;
         }
         let came = if self.touched { self.came.abs() } else { (-opens).max(0.0) };
         self.rebound = Rebound::new(self.restitution * came, opens, b, self.is_resolved(obstacle.h, came));
+    }
+
+    /// Finds what it gives back in the step without restitution, if it opens with a speed (m/s)
+    /// when the step begins, in a formula with the coefficient b. What is born deep counts as what
+    /// fell so deep.
+    pub fn find_loss(&mut self, opens: f64, b: f64) {
+        if self.speed > 0.0 {
+            self.speed = self.speed.max(thrown(&self.law, self.mass, self.offset));
+        }
+        self.rebound = Rebound::dead(self.returns(self.depth_before, self.speed), opens, b);
     }
 
     /// Returns the depth in m of the closest point where the gap of this one is `gap`.
@@ -323,6 +350,7 @@ impl ContactPoint {
             friction: now.friction,
             slips: now.slides.is_some(),
             came: self.came,
+            speed: self.speed_after(obstacle.h),
         }
     }
 }

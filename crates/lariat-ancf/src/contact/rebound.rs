@@ -28,11 +28,18 @@
 //! # Without restitution
 //!
 //! A tenth of the speed at which the law would throw the cable off from the depth D, offset and
-//! all, is what a contact without restitution may come up with, and its force fades over all of it:
+//! all, is what a contact without restitution may come up with, and no more than a tenth of the
+//! speed vs with which what it stores came; its force fades over all of it:
 //!
 //! ```text
-//! u = sqrt(2 W(D)/rho)/10, at least v       N = p(d1) min(1, max(0, 1 - s/u))
+//! u = min(sqrt(2 W(D)/rho), vs)/10, at least v       N = p(d1) min(1, max(0, 1 - s/u))
 //! ```
+//!
+//! vs is the largest mean speed with which the surfaces came together in a step since they touched,
+//! and goes with the root of W(D) while that falls. So `2 W/vs^2` is the mass per length that the
+//! contact carries, whatever bodies, cables and stiffness make it up, found from what it took up.
+//! It counts from 10 cm/s on, and until it is less than v: what is slower is pressed, or lies, and
+//! u is that of the cable alone.
 //!
 //! Where p is k d it is a damper of the contact that opens, of five times the critical damping,
 //! that does not pull: what fell to a depth comes up in some `10/omega`, and leaves with a tenth of
@@ -56,9 +63,9 @@
 //!
 //! A bounce at v reaches 5 um. A contact that is relieved comes up by its depth, some um, at v; one
 //! that rests has `s = 0` and the law of depth. Without restitution a cable leaves with at most
-//! 0.11 of its speed, 1 % of the height of its fall. What is stored under a much heavier body that
-//! presses it down throws the body with more, by the root of the masses. Between cables the law is
-//! that of depth.
+//! 0.11 of its speed, 1 % of the height of its fall, and what lands on it likewise. Between cables
+//! that is so where they come with 10 cm/s or more; where they do not, the law is that of depth. Of
+//! a cable that bends, contact takes what is stored in it, and not what bending stores.
 //!
 //! # References
 //!

@@ -205,6 +205,7 @@ impl StaticContact {
                     depth: sample.depth,
                     offset: 0.0,
                     given: 0.0,
+                    speed: 0.0,
                     spring: Vector3::zeros(),
                     force: sample.force,
                     energy: sample.energy,

@@ -206,6 +206,10 @@ pub(crate) const SLOW: f64 = 0.01;
 /// of a fall is left, and with 0.2 thrown ropes stay deep.
 pub(crate) const RISE: f64 = 0.1;
 
+/// Speed in m/s of approach from which on a touch is an impact. Measured: by `contact --test
+/// strong_friction`; with [`SLOW`] what tension presses on a drum gives way in jerks of 20 %.
+pub(crate) const IMPACT: f64 = 0.1;
+
 /// Largest way, in depths of the touch, of a step that resolves it. Measured:
 /// docs/decisions/restitution.md; from 2.2 to 3 alike.
 pub(crate) const RESOLVED: f64 = 2.5;

@@ -85,6 +85,13 @@ pub(crate) const CONTACT_TURN: f64 = core::f64::consts::TAU / 9.0;
 /// The angle that is advised. Unknown: twelve elements around a drum.
 pub(crate) const ADVISED: f64 = core::f64::consts::TAU / 12.0;
 
+/// Length in diameters that runs over a cable beneath without slipping. Derived: half a turn of it.
+pub(crate) const RUN: f64 = 0.5 * core::f64::consts::PI;
+
+/// Length in diameters by which a contact of cables is followed in a host step. Unknown: of what
+/// runs faster, the first steps are slower.
+pub(crate) const FOLLOWED: f64 = 4.0;
+
 /// For how long in s they may be larger. Unknown: an impact is over before.
 pub(crate) const DURATION: f64 = 0.1;
 

@@ -49,6 +49,9 @@ pub struct ContactMemory {
     /// Speed in m/s with which the cable came, for its restitution.
     #[serde(default)]
     pub(crate) came: f64,
+    /// Speed in m/s with which came what it stores, 0 if it came slowly.
+    #[serde(default)]
+    pub(crate) speed: f64,
 }
 
 /// Element, obstacle and place: no two contacts share them.
@@ -72,6 +75,7 @@ impl ContactMemory {
             self.energy,
             self.friction_power,
             self.came,
+            self.speed,
         ];
         let vectors = [self.normal, self.spring, self.direction, self.friction];
         let mut all = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));

@@ -12,12 +12,19 @@
 //! A cable that slides along itself over the facets of a mesh, about which it bends, loses energy
 //! at each edge without friction: masses on prisms of 12 to 96 sides fall 5 to 56 % too slowly
 //! (docs/decisions/contact.md). It is told after ten radii.
+//!
+//! A cable runs over another one if their contact moves along one of them by half a turn of the
+//! other, and less than half as much along that, while it sticks at all host times. What sticks
+//! moves along neither, but for one that turns beneath one that bends around it. The contact that
+//! pushes most is followed, one of a cable, up to four diameters in a host step.
 
 use super::Warning;
 use crate::cable::Cable;
 use crate::obstacle::{Obstacle, RigidMotion};
-use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, SLID};
-use crate::watch::{Contacts, Excess};
+use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, RUN, SLID};
+use crate::section::Element;
+use crate::state::PairMemory;
+use crate::watch::{Contacts, Excess, Sticking};
 use nalgebra::Vector3;
 
 /// Returns the largest speed (m/s) with which a cable slides along itself over an obstacle about
@@ -78,6 +85,7 @@ impl Contacts {
             return;
         }
         self.note_facets(cable);
+        self.follow(cable);
         let [depth, turn] = cable.contact_quality(CONTACT_TURN);
         let rests = !cable.snapshot.state.memory.contacts.is_empty() && cable.velocities().iter().all(|v| *v == 0.0);
         for (excess, reading, limit) in [(&mut self.depth, depth, DEPTH), (&mut self.turn, turn, 1.0)] {
@@ -122,6 +130,57 @@ impl Contacts {
             let enough = (cable.elements().len() as f64 * turn_rad / ADVISED).ceil() as usize;
             Warning::CoarseContact { cable: cable.name().to_string(), arc_length_m, turn_rad, enough }
         })
+    }
+
+    /// Follows the contact with a cable that pushes most while it sticks.
+    fn follow(&mut self, cable: &Cable) {
+        let memory = &cable.snapshot.state.memory.pairs;
+        let Some(contact) = cable.effects().contact.filter(|own| own.friction > 0.0 && !memory.is_empty()) else {
+            self.sticking = None;
+            return;
+        };
+        let material = |pair: &PairMemory| [0, 1].map(|k| pair.arcs[k] - pair.passed[k]);
+        let sticks = |pair: &&PairMemory| !pair.contact.slips && pair.contact.force > 0.0;
+        let radius = |element: &Element| contact.radius_of(&element.section);
+        let reach = 2.0 * cable.elements().iter().map(radius).fold(0.0, f64::max);
+        self.sticking = self.sticking.and_then(|last| {
+            let apart = |pair: &PairMemory| [0, 1].map(|k| (material(pair)[k] - last.now[k]).abs());
+            let same = |pair: &&PairMemory| {
+                let apart = apart(pair);
+                let [less, more] = [apart[0].min(apart[1]), apart[0].max(apart[1])];
+                pair.contact.obstacle == last.other && less < 0.5 * reach && more < FOLLOWED * reach
+            };
+            let sum = |pair: &PairMemory| apart(pair).iter().sum::<f64>();
+            let nearest = memory.iter().filter(same).min_by(|a, b| sum(a).total_cmp(&sum(b)));
+            nearest.filter(sticks).map(|pair| Sticking { now: material(pair), ..last })
+        });
+        let Some(Sticking { start, now, .. }) = self.sticking else {
+            let most = memory.iter().filter(sticks).max_by(|a, b| a.contact.force.total_cmp(&b.contact.force));
+            self.sticking = most.map(|pair| {
+                let now = material(pair);
+                Sticking { other: pair.contact.obstacle, start: now, now }
+            });
+            return;
+        };
+        let ways = [0, 1].map(|k| (now[k] - start[k]).abs());
+        let [less, more] = [ways[0].min(ways[1]), ways[0].max(ways[1])];
+        // one that is laid along the other moves along both
+        if less < 0.5 * more && more > RUN * reach && more > self.run[0] {
+            self.run = [more, now[0]];
+        }
+    }
+
+    /// Whether a cable ran over another one although its contact stuck.
+    pub fn runs_over(&self, cable: &Cable) -> Option<Warning> {
+        let [run_m, arc_length_m] = self.run;
+        (run_m > 0.0).then(|| Warning::RunsOver { cable: cable.name().to_string(), arc_length_m, run_m })
+    }
+
+    /// Whether it has restitution and touched a cable.
+    pub fn dead(cable: &Cable) -> Option<Warning> {
+        let restitution = cable.effects().contact?.restitution;
+        let told = restitution > 0.0 && cable.diagnostics().touching_steps > 0;
+        told.then(|| Warning::DeadCables { cable: cable.name().to_string(), restitution })
     }
 
     /// Whether friction lags in more than a hundredth of all steps.

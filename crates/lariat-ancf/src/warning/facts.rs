@@ -10,6 +10,7 @@ impl Warning {
             Warning::UntouchedObstacles { .. }
             | Warning::SlowReel { .. }
             | Warning::HighRestitution { .. }
+            | Warning::DeadCables { .. }
             | Warning::IdleTorsion { .. }
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
@@ -28,6 +29,7 @@ impl Warning {
             | Warning::RoundedEnds { .. }
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
+            | Warning::RunsOver { .. }
             | Warning::CutShort { .. }
             | Warning::Facets { .. }
             | Warning::TwistSlips { .. }
@@ -75,6 +77,8 @@ impl Warning {
             | Warning::HighRestitution { cable, .. }
             | Warning::FrictionLags { cable, .. }
             | Warning::Facets { cable, .. }
+            | Warning::DeadCables { cable, .. }
+            | Warning::RunsOver { cable, .. }
             | Warning::CutShort { cable, .. }
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
@@ -122,6 +126,8 @@ impl Judged for Warning {
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
+            | Warning::DeadCables { .. }
+            | Warning::RunsOver { .. }
             | Warning::IdleTorsion { .. }
             | Warning::KinksThroughItself { .. }
             | Warning::MomentAlong { .. }
@@ -191,7 +197,8 @@ impl Judged for Warning {
             }
             Warning::SoftMaterial { youngs_modulus_pa, .. } => -youngs_modulus_pa,
             Warning::Thick { diameter_m, .. } => *diameter_m,
-            Warning::HighRestitution { restitution, .. } => *restitution,
+            Warning::HighRestitution { restitution, .. } | Warning::DeadCables { restitution, .. } => *restitution,
+            Warning::RunsOver { run_m, .. } => *run_m,
             Warning::UntouchedObstacles { count, .. } => *count as f64,
             Warning::IdleTorsion { .. } => 0.0,
         }

@@ -375,6 +375,29 @@ pub enum Warning {
         /// Coefficient of restitution with what it touches.
         restitution: f64,
     },
+    /// It has restitution, which cables do not have on each other.
+    #[error(
+        "cable {cable:?}: its coefficient of restitution is {restitution}, and cables have none on each other: it leaves a cable that it hits with at most a ninth of its speed"
+    )]
+    DeadCables {
+        /// Name of the cable.
+        cable: String,
+        /// Its coefficient of restitution.
+        restitution: f64,
+    },
+    /// It runs over a cable without slipping, since that turns beneath it.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m a cable ran {run_m:.3} m over another one around which it bends, and friction did not hold it: the section of the one beneath turns \
+         freely, as nothing holds a cable against turning about itself; where it could not turn, put a fixed rod in its place"
+    )]
+    RunsOver {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the contact in m.
+        arc_length_m: f64,
+        /// Length in m that ran over it.
+        run_m: f64,
+    },
     /// Friction does not settle on the normal forces.
     #[error(
         "cable {cable:?}: in {steps} steps its friction did not settle on the normal forces of the step, and tensions along what it slides on are probably wrong: try \

@@ -24,7 +24,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 25] = [
+const LAWS: [(Law, bool); 27] = [
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -50,6 +50,8 @@ const LAWS: [(Law, bool); 25] = [
     (|watch, cable, error| watch.layers.kink(cable).filter(|_| error.is_none()), true),
     (Watch::green_strain, true),
     (|watch, cable, _| watch.contacts.facets(cable), true),
+    (|watch, cable, _| watch.contacts.runs_over(cable), true),
+    (|_, cable, _| Contacts::dead(cable), true),
 ];
 
 /// Layout: the bit of warnings about sizes.

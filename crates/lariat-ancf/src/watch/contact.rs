@@ -9,6 +9,12 @@ pub(crate) struct Contacts {
     pub(crate) turn: Excess,
     #[serde(default)]
     pub(crate) facets: Facets,
+    /// Its contact with a cable that pushes most, as long as that sticks.
+    #[serde(default)]
+    pub(crate) sticking: Option<Sticking>,
+    /// The longest that ran over another one while it stuck in m, and its arc length.
+    #[serde(default)]
+    pub(crate) run: [f64; 2],
 }
 
 /// How far a cable slid along itself over facets about which it bends.
@@ -18,6 +24,16 @@ pub(crate) struct Facets {
     pub(crate) slid: f64,
     /// Time in s when it was read last.
     pub(crate) at: f64,
+}
+
+/// A contact of two cables that sticks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Sticking {
+    /// Key of the other cable.
+    pub(crate) other: u64,
+    /// Arc lengths in m along both, of material, when that began and now.
+    pub(crate) start: [f64; 2],
+    pub(crate) now: [f64; 2],
 }
 
 /// How far a reading exceeds its limit, and since when.

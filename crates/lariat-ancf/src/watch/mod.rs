@@ -10,7 +10,7 @@ mod steps;
 pub(crate) use account::{CableAccount, Last};
 pub use account::{CableTerms, IslandChange};
 pub use balance::{EnergyBalance, Sizes, Verdict};
-pub(crate) use contact::{Contacts, Excess};
+pub(crate) use contact::{Contacts, Excess, Sticking};
 pub(crate) use layers::{CoarseKink, CoarseMoment, Layers};
 pub(crate) use steps::{Estimate, Steps};
 

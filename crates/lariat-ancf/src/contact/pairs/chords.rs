@@ -29,6 +29,8 @@ pub(crate) struct Strand<'a> {
     pub q: &'a [f64],
     /// Change of the coordinates in the present iterate.
     pub change: &'a [f64],
+    /// Velocities of the coordinates when the step begins.
+    pub velocity: &'a [f64],
     pub memory: &'a [PairMemory],
     /// Length in m that came through the eye of a reel at the start: arc lengths of all material
     /// have grown by it.

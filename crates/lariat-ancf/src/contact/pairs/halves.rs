@@ -203,7 +203,8 @@ mod tests {
             let way = [0.0, 0.01, 0.5][round % 3];
             let q: Vec<f64> = (0..18).map(|_| next()).collect();
             let change: Vec<f64> = (0..18).map(|_| way * next()).collect();
-            let strand = Strand { key: 1, model: &cable.model, q: &q, change: &change, memory: &[], passed: 0.0 };
+            let model = &cable.model;
+            let strand = Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], passed: 0.0 };
             let pieces = [Piece::new(strand, 0), Piece::new(strand, 1)];
             let near = Near { pieces, from: [0.0, 1.0], reach: 0.04, same: round % 2 == 0 };
             tests += halves.find(&near);
@@ -241,7 +242,8 @@ mod tests {
                 q.extend([1.0 + 0.5 * bend * next(), bend * next(), bend * next()]);
             }
             let change: Vec<f64> = (0..30).map(|_| 0.2 * bend * next()).collect();
-            let strand = Strand { key: 1, model: &cable.model, q: &q, change: &change, memory: &[], passed: 0.0 };
+            let model = &cable.model;
+            let strand = Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], passed: 0.0 };
             let strands = Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY, pairs: None };
             boxes.find(&strands);
             for first in 0..3 {

@@ -8,10 +8,6 @@
 //! of a pair turns with it: G is so much more than the masses that an impulse along another would
 //! throw the cables aside.
 //!
-//! # Validity
-//!
-//! Friction of what is taken back has the bound of the last step, as that of the step itself.
-
 use super::step::PairStep;
 use nalgebra::Vector3;
 

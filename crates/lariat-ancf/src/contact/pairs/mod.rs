@@ -36,14 +36,14 @@
 //!
 //! Nothing holds the section of a cable against turning about its own axis, and contact does not
 //! act on the twist of one with torsion. So a cable turns beneath one that bends around it as a
-//! wheel would that turns freely: friction holds what crosses, not what is hooked over it, and
-//! loops that hang in each other by 180 degrees slide through each other, where Euler's capstan
-//! would hold a ratio of exp(pi mu). Cables that are parallel, to `sqrt(e)` = 0.03 rad, roll on
-//! each other without friction. A fixed rod in place of the cable beneath holds as it should.
-//! Points of one cable nearer than eight radii along it do not touch, nor do points so near to a
-//! body that holds both. Cables that bend to less than some radii are not resolved. Whether centre
-//! lines went through each other is asked after every step (crossing.rs): such a step is divided,
-//! and if that does not help it is counted in
+//! wheel would that turns freely ([warning](crate::Warning::RunsOver) if it does): friction holds
+//! what crosses, not what is hooked over it, and loops that hang in each other by 180 degrees slide
+//! through each other, where Euler's capstan would hold a ratio of exp(pi mu). Cables that are
+//! parallel, to `sqrt(e)` = 0.03 rad, roll on each other without friction. A fixed rod in place of
+//! the cable beneath holds as it should. Points of one cable nearer than eight radii along it do
+//! not touch, nor do points so near to a body that holds both. Cables that bend to less than some
+//! radii are not resolved. Whether centre lines went through each other is asked after every step
+//! (crossing.rs): such a step is divided, and if that does not help it is counted in
 //! [`Diagnostics::crossed_steps`](crate::Diagnostics::crossed_steps), which is a
 //! [warning](crate::Warning::PassedThrough).
 //!

@@ -98,6 +98,12 @@ impl PairPoint {
         self.point.reach = self.reach + normal.dot(&self.point.start) - gap;
     }
 
+    /// Returns the speed in m/s with which it opens when the step begins.
+    pub fn opens(&self, pieces: [&Piece<'_>; 2]) -> f64 {
+        let at = |k: usize| combine(pieces[k].strand.velocity, self.ends[k].element, &self.ends[k].shape);
+        self.point.patch.gap(&self.point.start).1.dot(&(at(0) - at(1)))
+    }
+
     /// Moves the frame with an iterate, and returns the change of y.
     fn turn(&mut self, strands: [&Strand<'_>; 2]) -> Vector3<f64> {
         let change = |k: usize, shape: &[f64; 4]| combine(strands[k].change, self.ends[k].element, shape);

@@ -1,6 +1,7 @@
 //! All contacts between the cables of a system over a step.
 
 use super::super::ContactBalance;
+use super::super::lag::{lag, renew};
 use super::super::law::NormalLaw;
 use super::super::point::ContactPoint;
 use super::chords::{Piece, Strand};
@@ -10,7 +11,7 @@ use super::point::{PairPoint, frame};
 use super::search::{Candidate, Search};
 use super::strands::Strands;
 use crate::one_leg::OneLeg;
-use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, NEAR_PAIR, ONE, PAID};
+use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, LAG, NEAR_PAIR, ONE, PAID};
 use crate::scales::island::MAX_SEARCHES;
 use crate::state::ContactMemory;
 use crate::state::PairMemory;
@@ -36,6 +37,8 @@ pub(crate) struct PairStep {
     searches: usize,
     /// Whether contacts close offsets.
     close: bool,
+    /// Whether friction missed its bounds when that was last asked.
+    pub lags: bool,
     /// Whether any cable can touch another or itself.
     on: bool,
     /// Those that have a tangent, as columns of the linear equations.
@@ -65,6 +68,7 @@ impl PairStep {
         (self.h, self.leg, self.before, self.searches, self.close) = (h, leg, 0.0, 0, close);
         self.on = (0..strands.count).any(|c| strands.may_touch(c));
         self.columns.clear();
+        self.lags = false;
         if !self.on {
             return;
         }
@@ -176,7 +180,12 @@ impl PairStep {
             let paid = PAID * memory.friction_power * self.h;
             point.close((paid / point.cost()).min(self.h / CLOSING_TIME).min(1.0));
         }
-        self.before += point.energy_before();
+        // what does not come fast, but is pressed or lies, has the law of its depth
+        if point.speed > 0.0 {
+            let opens = pair.opens(pieces.each_ref());
+            pair.point.find_loss(opens, self.leg.b);
+        }
+        self.before += pair.point.energy_before();
         self.points.push(pair);
     }
 
@@ -203,6 +212,30 @@ impl PairStep {
         let (_, i) = best?;
         self.taken[a][i] = true;
         Some((strands.get)(a).memory[i].contact)
+    }
+
+    /// Returns the sum in N by which friction misses its bounds by the normal forces of the present
+    /// iterate, and notes whether that is much.
+    pub fn find_lag(&mut self) -> f64 {
+        let [missed, all] = lag(self.points.iter().map(|pair| &pair.point));
+        self.lags = missed > LAG * all;
+        missed
+    }
+
+    /// Sets the bounds of friction by the normal forces of the present iterate.
+    pub fn renew_friction(&mut self) {
+        renew(self.points.iter_mut().map(|pair| &mut pair.point));
+    }
+
+    /// Returns whether a strand has a contact.
+    pub fn has(&self, strand: usize) -> bool {
+        self.points.iter().any(|pair| pair.ends.iter().any(|end| end.strand == strand))
+    }
+
+    /// Returns whether a strand touches when the step ends.
+    pub fn touches(&self, strand: usize) -> bool {
+        let mut touching = self.points.iter().filter(|pair| pair.point.now.normal_force > 0.0);
+        touching.any(|pair| pair.ends.iter().any(|end| end.strand == strand))
     }
 
     /// Makes the contacts linear at the present iterate, as columns of the linear equations.

@@ -106,15 +106,24 @@ impl StepTerm<IslandStep<'_, '_>> for Contacts {
 }
 
 impl IslandStep<'_, '_> {
-    /// Sets the bounds of friction of contacts with obstacles by their present normal forces, if
-    /// they miss them, by more than `least` (N) in all; returns whether they did.
+    /// Sets the bounds of friction by the present normal forces, of cables that miss them, and of
+    /// contacts between cables if those do, if all miss them by more than `least` (N); returns
+    /// whether they did.
     fn renew_friction(&mut self, least: f64) -> bool {
-        let missed: f64 = self.cables.iter_mut().map(|cable| cable.step_buffers.contact.find_lag()).sum();
-        let mut any = false;
+        let on_obstacles: f64 = self.cables.iter_mut().map(|cable| cable.step_buffers.contact.find_lag()).sum();
+        let pairs = &mut self.buffers.pairs;
+        let missed = on_obstacles + pairs.find_lag();
+        pairs.lags &= missed > least;
+        let mut any = pairs.lags;
+        if pairs.lags {
+            pairs.renew_friction();
+        }
         for cable in self.cables.iter_mut() {
             let contact = &mut cable.step_buffers.contact;
             contact.lags &= missed > least;
-            contact.renew_friction();
+            if contact.lags {
+                contact.renew_friction();
+            }
             any |= contact.lags;
         }
         any
@@ -157,8 +166,9 @@ impl IslandStep<'_, '_> {
 
     /// Counts a step whose friction does not settle on the normal forces of the step itself.
     fn count_lagging(&mut self) {
-        for cable in self.cables.iter_mut() {
-            let lags = cable.step_buffers.contact.lags;
+        let pairs = &self.buffers.pairs;
+        for (c, cable) in self.cables.iter_mut().enumerate() {
+            let lags = cable.step_buffers.contact.lags || pairs.lags && pairs.has(c);
             cable.diagnostics_mut().lagging_steps += u64::from(lags);
         }
     }

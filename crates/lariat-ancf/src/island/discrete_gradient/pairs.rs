@@ -18,7 +18,8 @@ fn with_strands<T>(
         let state = &snapshot.state;
         let key = if model.contact_key == 0 { c as u64 } else { model.contact_key };
         let passed = snapshot.passed_at_start();
-        Strand { key, model, q: &state.q, change: &step_buffers.change, memory: &state.memory.pairs, passed }
+        let (q, velocity, memory) = (&state.q[..], &state.v[..], &state.memory.pairs[..]);
+        Strand { key, model, q, change: &step_buffers.change, velocity, memory, passed }
     };
     let over_bodies = |strands: [usize; 2], arcs: [f64; 2]| {
         let on = |k: usize| {
@@ -92,6 +93,7 @@ impl IslandStep<'_, '_> {
     pub(super) fn remember_pairs(&mut self) {
         let (cables, pairs) = (&mut *self.cables, &self.buffers.pairs);
         for c in 0..cables.len() {
+            cables[c].diagnostics_mut().touching_steps += u64::from(pairs.touches(c));
             let mut memory = core::mem::take(&mut cables[c].snapshot.state.memory.pairs);
             pairs.remember(c, |other| cables[other].snapshot.passed_at_start(), &mut memory);
             cables[c].snapshot.state.memory.pairs = memory;
