@@ -52,8 +52,8 @@ pub(crate) const SLACK: f64 = 3.0;
 /// critical is above it.
 pub(crate) const SLOWEST_STRETCH: f64 = 1.0;
 
-/// Angle in rad between normals of a mesh about which a cable bends. Derived: ten degrees, more than
-/// one facet of a pulley of 36 sides; ground is flatter where a cable lies.
+/// Angle in rad between normals of a mesh about which a cable bends. Derived: ten degrees, more
+/// than one facet of a pulley of 36 sides; ground is flatter where a cable lies.
 pub(crate) const FACET_TURN: f64 = 0.175;
 
 /// Way along itself, in radii of contact, after which a cable that slides over facets is told.
