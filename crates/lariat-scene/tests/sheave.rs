@@ -213,7 +213,7 @@ fn sheaves_along_a_cable_that_do_not_fit_are_refused() {
         ("anchor = [0.0, 0.0, 0.0]", "anchor = [0.0, 0.5, 0.0]", "from the cable as drawn"),
         ("anchor = [0.0, 0.0, 0.0]\n", "", "anchor"),
         ("at = 2.0024\n", "", "at"),
-        ("at = 2.0024", "at = 7.0", "part of the cable beside it"),
+        ("at = 2.0024", "at = 7.0", "not on the cable"),
         ("radius = 0.1", "radius = -0.1", "radius"),
         ("radius = 0.1", "radius = 3.0", "within the wheel"),
         ("radius = 0.1", "radius = 0.1\nto = \"rope\"", "between two cables"),

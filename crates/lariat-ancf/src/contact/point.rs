@@ -36,7 +36,7 @@ pub(in crate::contact) struct ContactPoint {
     /// Speed in m/s across it with which the cable came when it first touched, negative once it
     /// leaves; 0 without restitution, and if it comes again.
     pub came: f64,
-    /// Speed in m/s with which came what it stores; 0 where that was pressed.
+    /// Of two cables the speed in m/s with which came what it stores; 0 where that was pressed.
     pub speed: f64,
     /// Gap in m at which it touches: radius and skin.
     pub reach: f64,
@@ -350,7 +350,7 @@ impl ContactPoint {
             friction: now.friction,
             slips: now.slides.is_some(),
             came: self.came,
-            speed: self.speed_after(obstacle.h),
+            speed: 0.0,
         }
     }
 }

@@ -320,5 +320,6 @@ fn deviates(strand: &Strand<'_>, searched: &[f64]) -> bool {
 /// Returns what is remembered of a contact, in world axes: those of the next frame.
 fn in_world_axes(pair: &PairPoint) -> ContactMemory {
     let contact = pair.point.memory(&pair.frame);
-    ContactMemory { normal: contact.direction, spring: pair.frame.end.rotation * contact.spring, ..contact }
+    let speed = pair.point.speed_after(pair.frame.h);
+    ContactMemory { speed, normal: contact.direction, spring: pair.frame.end.rotation * contact.spring, ..contact }
 }
