@@ -45,8 +45,7 @@
 //!
 //! Restitution of contacts with obstacles and bodies up to `(1 - a)/(1 + a) = 15/17`: with more a
 //! mass that leaves has more of H than it came with, for H holds the store of its jump of velocity,
-//! `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other
-//! ([`pairs`](super::pairs)) it is 0. Steps
+//! `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other ([`pairs`](super::pairs)) it is 0. Steps
 //! of which the velocity across contacts has less energy than the tolerance of the law take none,
 //! and do no work for it.
 //!
@@ -112,8 +111,15 @@ impl ContactPoint {
         } else if self.rebound.is_bound() {
             // what a step resolves comes up by itself
             let depth = self.now.depth + self.offset - self.closing;
-            let returns = self.returns(depth, self.speed_after(h));
-            rebound = if h * returns < RESOLVED * depth { RISE * returns } else { 0.0 };
+            let thrown = self.returns(depth, 0.0);
+            rebound = if self.speed > 0.0 {
+                let returns = self.returns(depth, self.speed_after(h));
+                if h * returns < RESOLVED * depth { RISE * returns } else { 0.0 }
+            } else if self.is_resolved(h, thrown) {
+                RISE * thrown
+            } else {
+                0.0
+            };
         }
         let over = across - rebound;
         if over <= 0.0 && !gives {

@@ -179,7 +179,11 @@ impl World {
         removed.ok_or_else(|| raise(Error::NoBody(handle.0)))
     }
 
-    /// Moves bodies.
+    /// Moves bodies by ``translation`` (m) after a turn by the rotation vector ``rotation`` (rad)
+    /// about the origin, in world axes, with the cables that are attached to them and those tied to
+    /// these: a teleport without a jolt. Velocities turn with them, strains and tensions stay;
+    /// contacts begin anew. Raises HeldInMoveError, JointInMoveError, NoBodyError, OtherWorldError,
+    /// InvalidValueError; nothing has moved then.
     #[pyo3(signature = (bodies, translation=None, rotation=None))]
     fn move_bodies(
         &self,
@@ -191,7 +195,8 @@ impl World {
         let read = |what: &str, v: Option<Vector>| single(what, v.map_or_else(Vector3::zeros, |v| v.0));
         let (way, turn) = (read("translation (m)", translation)?, read("rotation (rad)", rotation)?);
         let bodies: Vec<RigidBodyHandle> = bodies.into_iter().map(|body| body.0).collect();
-        let moved = self.0.compute(py, |Contents { world, set, .. }| set.move_bodies(world, &bodies, &Pose::new(way, turn)));
+        let moved =
+            self.0.compute(py, |Contents { world, set, .. }| set.move_bodies(world, &bodies, &Pose::new(way, turn)));
         moved.map_err(raise)
     }
 

@@ -33,9 +33,9 @@ impl Contents {
 impl World {
     /// Adds the usual rope between two points (m), each held by a body or by the world, damped by
     /// 0.2 of critical at its lowest axial mode. ``slack``: unstretched length beyond the distance,
-    /// as a share of it; ``strength``: tension in N above which it breaks; ``elements``: default
-    /// that of fidelity game. Raises NoBodyError, CoincidentPointsError, InvalidValueError,
-    /// ElementCountError.
+    /// as a share of it; ``length``: unstretched length in m, in place of a slack; ``strength``:
+    /// tension in N above which it breaks; ``elements``: default that of fidelity game. Raises
+    /// NoBodyError, CoincidentPointsError, InvalidValueError, ElementCountError.
     #[pyo3(signature = (start, end, section, *, start_body=None, end_body=None, slack=0.0, length=None, strength=None, elements=None, fidelity=None, name="rope"))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn add_rope<'py>(
@@ -55,7 +55,8 @@ impl World {
     ) -> PyResult<Bound<'py, PyAny>> {
         let fidelity = fidelity.map(self::fidelity).transpose()?;
         let elements = elements.unwrap_or(Fidelity::Game.elements());
-        let rope = Rope { slack, unstretched_length: length, strength, elements, fidelity, ..Rope::new(section.0).name(name) };
+        let rope =
+            Rope { slack, unstretched_length: length, strength, elements, fidelity, ..Rope::new(section.0).name(name) };
         let ends = [(start, start_body), (end, end_body)]
             .map(|(point, body)| RopeEnd { point: point.0, body: body.map(|b| b.0) });
         let added = self.0.compute(py, |contents| {
