@@ -160,7 +160,7 @@ def test_impedance_about_the_axis_is_the_torsional_stiffness() -> None:
 @pytest.mark.parametrize("turns", [0.6, -0.9])
 @pytest.mark.parametrize("h", [1e2, 1e4])
 def test_impedance_of_a_bent_and_twisted_cable_is_the_stiffness_of_its_equilibrium(turns: float, h: float) -> None:
-    """Z/h^2 of long steps: by how much the force on one end of the cable in equilibrium, and its torque, differ where this end was moved and turned about
+    """Z/h^2 of long steps: by how much the force on one end of the cable in equilibrium, and its torque, differ where this end was turned about
     its axis, by central differences. The cable bears more torque than a straight one would, and is pushed together: the cable without its ends has no
     positive definite stiffness."""
     bent, d = [[0, 0, 0], [0.5, -0.2, 0.1], [1, 0, 0]], 1e-4
@@ -168,21 +168,18 @@ def test_impedance_of_a_bent_and_twisted_cable_is_the_stiffness_of_its_equilibri
     axes = cable.slopes[[0, -1]] / np.linalg.norm(cable.slopes[[0, -1]], axis=1)[:, None]
     z = held(cable).impedance(h) / h**2
 
-    def pulled(move: list[float], turn: float) -> np.ndarray:
+    def pulled(turn: float) -> np.ndarray:
         other = twisted(turns + turn / (2 * np.pi), bent)
-        other.prescribe("end", other.positions[-1] + move, 1.0)
-        other.time = 2.0
         other.equilibrium()
         return np.append(other.reactions()[-1].force, other.torsion()[0].torque)
 
-    moves = [([d, 0, 0], 0), ([0, d, 0], 0), ([0, 0, d], 0), ([0, 0, 0], d)]
-    exact = np.array([(pulled(m, t) - pulled([-x for x in m], -t)) / (2 * d) for m, t in moves]).T
-    assert exact[3, 3] < 0.995 * 0.02 / cable.length  # the curve gives way
+    exact = (pulled(d) - pulled(-d)) / (2 * d)
+    assert exact[3] < 0.995 * 0.02 / cable.length  # the curve gives way
     to_end = np.zeros((12, 4))
     to_end[6:9, :3], to_end[9:, 3] = np.eye(3), axes[1]
     # forces of 1 N/m and moments of 1 N m/rad, as both are here
-    assert to_end.T @ z @ to_end == pytest.approx(exact, rel=1e-3, abs=1e-3 * exact[3, 3])
-    assert axes[0] @ z[3:6, 9:] @ axes[1] == pytest.approx(-exact[3, 3], rel=1e-3)
+    assert to_end.T @ z @ to_end[:, 3] == pytest.approx(exact, rel=1e-3, abs=1e-3 * exact[3])
+    assert axes[0] @ z[3:6, 9:] @ axes[1] == pytest.approx(-exact[3], rel=1e-3)
 
 
 def held(cable: lariat.Cable) -> lariat.CoSimulation:
