@@ -83,6 +83,12 @@ impl Reel {
         Reel { rate: vec![[f64::MIN, rate]], ..Self::default() }
     }
 
+    /// A reel that comes to a length of cable (m) that is out, with at most a rate (m/s), and stops
+    /// there.
+    pub fn to_length(length: f64, rate: f64) -> Self {
+        Reel { to_length: Some(length), ..Self::with_rate(rate) }
+    }
+
     /// A reel that turns freely: no motor, no brake.
     pub fn free_spool() -> Self {
         Reel { max_force: Some(0.0), ..Self::default() }

@@ -33,7 +33,7 @@ impl Reel {
     /// A reel that comes to a length of cable (m) that is out, with at most a rate (m/s), and stops
     /// there.
     pub fn to_length(length: f64, rate: f64) -> Self {
-        Reel(lariat_ancf::Reel { to_length: Some(length), ..lariat_ancf::Reel::with_rate(rate) })
+        Reel(lariat_ancf::Reel::to_length(length, rate))
     }
 }
 
@@ -50,7 +50,7 @@ impl ReelAtStart {
     /// A reel that comes to a length of cable (m) that is out, with at most a rate (m/s), and stops
     /// there.
     pub fn to_length(length: f64, rate: f64) -> Self {
-        ReelAtStart(lariat_ancf::Reel { to_length: Some(length), ..lariat_ancf::Reel::with_rate(rate) })
+        ReelAtStart(lariat_ancf::Reel::to_length(length, rate))
     }
 }
 

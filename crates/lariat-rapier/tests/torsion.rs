@@ -45,6 +45,26 @@ fn twist(set: &CableSet, cable: CableHandle) -> f64 {
     set.get(cable).unwrap().torsion()[0].twist
 }
 
+/// Steps, and returns the twists (rad) at which a cable turns back, which unwinds from `first`.
+fn extremes(
+    world: &mut PhysicsWorld,
+    set: &mut CableSet,
+    cable: CableHandle,
+    (first, steps): (f64, usize),
+) -> Vec<f64> {
+    let (mut extremes, mut before, mut rising) = (Vec::new(), first, false);
+    for _ in 0..steps {
+        set.step(world).unwrap();
+        let now = twist(set, cable);
+        if (now > before) != rising {
+            extremes.push(before);
+            rising = !rising;
+        }
+        before = now;
+    }
+    extremes
+}
+
 /// Returns the angular frequency in rad/s of a twist that oscillates about zero, by its first and
 /// last passage through it within a time (s).
 fn frequency(world: &mut PhysicsWorld, set: &mut CableSet, cable: CableHandle, time: f64) -> f64 {
@@ -332,17 +352,9 @@ fn torsion_is_damped_by_its_time() {
         (set.energy(world).unwrap().total(), set.get(rope).unwrap().effect_work().dissipated())
     };
     let start = read(&set, &world);
-    let mut extremes = vec![twist(&set, rope)];
-    let (mut before, mut rising) = (extremes[0], false);
-    for _ in 0..600 {
-        set.step(&mut world).unwrap();
-        let now = twist(&set, rope);
-        if (now > before) != rising {
-            extremes.push(before);
-            rising = !rising;
-        }
-        before = now;
-    }
+    let first = twist(&set, rope);
+    let mut extremes = extremes(&mut world, &mut set, rope, (first, 600));
+    extremes.insert(0, first);
     let last = extremes.len() - 1;
     let decay = (extremes[0] / extremes[last]).abs().ln() / last as f64;
     let exact = std::f64::consts::PI * ratio / f64::sqrt(1.0 - ratio * ratio);
@@ -534,16 +546,7 @@ fn a_hook_on_a_stranded_rope_is_damped_by_a_share() {
         let section = Section::from_stiffness(axial, 0.6, 0.1).unwrap();
         let rope = set.insert(rope.section(section).gravity(Vector3::zeros()).clamp(At::Start).build().unwrap());
         set.attach(&world, rope, At::End, body, Vector::ZERO, AttachmentKind::Clamp).unwrap();
-        let (mut extremes, mut before, mut rising) = (Vec::new(), TAU * 0.1, false);
-        for _ in 0..1200 {
-            set.step(&mut world).unwrap();
-            let now = twist(&set, rope);
-            if (now > before) != rising {
-                extremes.push(before);
-                rising = !rising;
-            }
-            before = now;
-        }
+        let extremes = extremes(&mut world, &mut set, rope, (TAU * 0.1, 1200));
         // between successive extremes, whatever the mean is
         let ways: Vec<f64> = extremes.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
         let last = ways.len() - 1;

@@ -111,15 +111,9 @@ impl ContactPoint {
         } else if self.rebound.is_bound() {
             // what a step resolves comes up by itself
             let depth = self.now.depth + self.offset - self.closing;
-            let thrown = self.returns(depth, 0.0);
-            rebound = if self.speed > 0.0 {
-                let returns = self.returns(depth, self.speed_after(h));
-                if h * returns < RESOLVED * depth { RISE * returns } else { 0.0 }
-            } else if self.is_resolved(h, thrown) {
-                RISE * thrown
-            } else {
-                0.0
-            };
+            let speed = if self.speed > 0.0 { self.speed_after(h) } else { 0.0 };
+            let returns = self.returns(depth, speed);
+            rebound = if h * returns < RESOLVED * depth { RISE * returns } else { 0.0 };
         }
         let over = across - rebound;
         if over <= 0.0 && !gives {

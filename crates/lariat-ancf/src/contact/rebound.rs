@@ -65,8 +65,8 @@
 //! A bounce at v reaches 5 um. A contact that is relieved comes up by its depth, some um, at v; one
 //! that rests has `s = 0` and the law of depth. Without restitution a cable leaves with at most
 //! 0.11 of its speed, 1 % of the height of its fall, and what lands on it likewise. Between cables
-//! that is so where they come with 10 cm/s or more. Of
-//! a cable that bends, contact takes what is stored in it, and not what bending stores.
+//! that is so where they come with 10 cm/s or more. Of a cable that bends, contact takes what is
+//! stored in it, and not what bending stores.
 //!
 //! # References
 //!

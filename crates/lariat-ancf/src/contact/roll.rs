@@ -126,7 +126,7 @@ impl ContactStep {
             return;
         }
         let old = &self.points[i];
-        let ContactPoint { nearby: n, recalls, linear, about, now, bound, renewed, speed, rebound, .. } = *old;
+        let ContactPoint { nearby: n, recalls, linear, about, now, bound, renewed, rebound, .. } = *old;
         let before = old.energy_before();
         let mut point =
             ContactPoint { nearby: n, recalls, linear, about, now, ..pair.feature_point(&nearby.feature, place.xi) };
@@ -139,7 +139,7 @@ impl ContactStep {
         }
         point.distance = z.norm() - nearby.feature.radius;
         point.recall(&y, &pair.step, memory);
-        (point.speed, point.rebound) = (speed, rebound);
+        point.rebound = rebound;
         point.close(self.closes);
         if renewed {
             (point.bound, point.renewed) = (bound, true);

@@ -22,7 +22,6 @@ use super::Warning;
 use crate::cable::Cable;
 use crate::obstacle::{Obstacle, RigidMotion};
 use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, RUN, SLID};
-use crate::section::Element;
 use crate::state::PairMemory;
 use crate::watch::{Contacts, Excess, Sticking};
 use nalgebra::Vector3;
@@ -98,13 +97,10 @@ impl Contacts {
 
     /// Reads how fast the cable slides along itself over facets.
     fn note_facets(&mut self, cable: &Cable) {
-        let passed = cable.time() - core::mem::replace(&mut self.facets.at, cable.time());
-        let fastest = cable.obstacles().iter().filter(|obstacle| obstacle.surface.has_facets());
-        let fastest = fastest.filter_map(|obstacle| sliding(cable, obstacle)).fold(0.0, f64::max);
-        // of a cable that was read before
-        if passed.is_finite() && passed > 0.0 {
-            self.facets.slid += fastest * passed;
-        }
+        let Some(before) = self.facets.at.replace(cable.time()) else { return };
+        let obstacles = cable.obstacles().iter().filter(|obstacle| obstacle.surface.has_facets());
+        let fastest = obstacles.filter_map(|obstacle| sliding(cable, obstacle)).fold(0.0, f64::max);
+        self.facets.slid += fastest * (cable.time() - before).max(0.0);
     }
 
     pub fn facets(&self, cable: &Cable) -> Option<Warning> {
@@ -135,14 +131,13 @@ impl Contacts {
     /// Follows the contact with a cable that pushes most while it sticks.
     fn follow(&mut self, cable: &Cable) {
         let memory = &cable.snapshot.state.memory.pairs;
-        let Some(contact) = cable.effects().contact.filter(|own| own.friction > 0.0 && !memory.is_empty()) else {
+        if memory.is_empty() || cable.effects().contact.is_none_or(|own| own.friction <= 0.0) {
             self.sticking = None;
             return;
-        };
+        }
         let material = |pair: &PairMemory| [0, 1].map(|k| pair.arcs[k] - pair.passed[k]);
         let sticks = |pair: &&PairMemory| !pair.contact.slips && pair.contact.force > 0.0;
-        let radius = |element: &Element| contact.radius_of(&element.section);
-        let reach = 2.0 * cable.elements().iter().map(radius).fold(0.0, f64::max);
+        let reach = 2.0 * cable.contact_radius();
         self.sticking = self.sticking.and_then(|last| {
             let apart = |pair: &PairMemory| [0, 1].map(|k| (material(pair)[k] - last.now[k]).abs());
             let same = |pair: &&PairMemory| {

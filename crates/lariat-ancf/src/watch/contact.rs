@@ -23,7 +23,7 @@ pub(crate) struct Facets {
     /// Way in m.
     pub(crate) slid: f64,
     /// Time in s when it was read last.
-    pub(crate) at: f64,
+    pub(crate) at: Option<f64>,
 }
 
 /// A contact of two cables that sticks.

@@ -63,10 +63,10 @@ pub(crate) fn move_bodies(
     let mut moved = Vec::with_capacity(bodies.len());
     for &handle in bodies {
         // the mass of one that is fixed or kinematic is not finite
-        let is_dynamic = world.bodies.get(handle).is_some_and(|body| body.is_dynamic());
-        moved.push(match is_dynamic {
-            true => body::read(world, handle, contents.records.record_mut(handle), time)?,
-            false => body::rigid_body(world, handle).ok_or(Error::NoBody(handle))?,
+        moved.push(if world.bodies[handle].is_dynamic() {
+            body::read(world, handle, contents.records.record_mut(handle), time)?
+        } else {
+            body::rigid_body(world, handle).ok_or(Error::NoBody(handle))?
         });
     }
     for (&handle, mut body) in bodies.iter().zip(moved) {

@@ -132,11 +132,7 @@ fn search(
     let found = solved.iter().flat_map(|s| s.island.cables.iter().zip(&s.cables));
     let moved = found.filter_map(|(&index, found)| Some(Moved::new(index, start(contents, drawn, index)?, found)));
     check_passed(contents, finder, world, moved.collect(), &poses)?;
-    for a in contents.attachments.values() {
-        if !is_integrated(world, a.body) && !out.held.contains(&a.body) {
-            out.held.push(a.body);
-        }
-    }
+    out.held = report::held(contents, world);
     let loose = world.bodies.iter().filter(|(h, b)| is_integrated(world, *h) && !is_ledger(b) && !moving.contains(h));
     out.unattached = loose.map(|(handle, _)| handle).collect();
     // elements are split and merged where material runs over sheaves

@@ -144,10 +144,7 @@ impl Relaxation {
         let Relaxation { contents, world, stepper, own } = self;
         for (handle, force, torque) in &*own {
             let body = &mut world.bodies[*handle];
-            body.reset_forces(false);
-            body.reset_torques(false);
-            body.add_force(*force, false);
-            body.add_torque(*torque, false);
+            set_forces(body, *force, *torque);
             for at in forces.iter().filter(|at| at.body == *handle) {
                 let point = *body.position() * at.point;
                 body.add_force_at_point(to_vector(&at.force), point, false);
@@ -218,11 +215,7 @@ impl Relaxation {
             }
         }
         for (handle, force, torque) in &self.own {
-            let body = &mut self.world.bodies[*handle];
-            body.reset_forces(false);
-            body.reset_torques(false);
-            body.add_force(*force, false);
-            body.add_torque(*torque, false);
+            set_forces(&mut self.world.bodies[*handle], *force, *torque);
         }
         if let (Some(own), Some(water)) = (&mut self.contents.water, &contents.water) {
             own.set_time(water.time());
@@ -240,6 +233,14 @@ fn largest_way(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> f64 {
         return f64::INFINITY;
     }
     from.iter().zip(to).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max)
+}
+
+/// Gives a body the force and the torque of the users.
+fn set_forces(body: &mut RigidBody, force: Vector, torque: Vector) {
+    body.reset_forces(false);
+    body.reset_torques(false);
+    body.add_force(force, false);
+    body.add_torque(torque, false);
 }
 
 fn stop(body: &mut RigidBody) {

@@ -45,6 +45,17 @@ pub struct Equilibrium {
     pub relaxed: Option<Relaxed>,
 }
 
+/// Returns the attached bodies that are held where they are.
+pub(super) fn held(contents: &Contents, world: &PhysicsWorld) -> Vec<RigidBodyHandle> {
+    let mut held = Vec::new();
+    for body in contents.attachments.values().map(|a| a.body).filter(|body| !is_integrated(world, *body)) {
+        if !held.contains(&body) {
+            held.push(body);
+        }
+    }
+    held
+}
+
 impl Equilibrium {
     pub(super) fn by_motion(contents: &Contents, world: &PhysicsWorld, relaxed: Relaxed) -> Self {
         let report = |(index, slot): (usize, &crate::contents::Slot)| {
@@ -53,18 +64,11 @@ impl Equilibrium {
             let residual = relaxed.residual(mass);
             (CableHandle(index as u32), EquilibriumReport::new(relaxed.host_steps as usize, residual, true))
         };
-        let is_moved = |body: &RigidBodyHandle| is_integrated(world, *body);
-        let mut held: Vec<RigidBodyHandle> = Vec::new();
-        for body in contents.attachments.values().map(|a| a.body).filter(|body| !is_moved(body)) {
-            if !held.contains(&body) {
-                held.push(body);
-            }
-        }
-        let moved = world.bodies.iter().filter(|(handle, body)| is_moved(handle) && !is_ledger(body));
+        let moved = world.bodies.iter().filter(|(handle, body)| is_integrated(world, *handle) && !is_ledger(body));
         Equilibrium {
             cables: contents.cables.iter().map(report).collect(),
             moved: moved.map(|(handle, _)| handle).collect(),
-            held,
+            held: held(contents, world),
             unattached: Vec::new(),
             relaxed: Some(relaxed),
         }
