@@ -2,7 +2,10 @@
 //!
 //! A rope of 1.2 m and 0.12 kg, drawn level from the origin, with 0.25 kg at its end where a body
 //! asks for it. Axial waves are resolved by steps of 1/240 s, so that a finer run shows what
-//! features do, not what the step leaves out. What touches itself is drawn as a coil.
+//! features do, not what the step leaves out. What touches itself is drawn as a coil. It falls, whips and
+//! snaps taut, and without damping such waves are not resolved: its positions are 4 to 7 % off those of
+//! dt/8 *without contact*, and 0.2 to 0.8 % with damping of five steps. So it has that damping, and what
+//! differs is what contact does.
 
 use super::feature::Feature;
 use lariat_ancf::{
@@ -20,6 +23,8 @@ pub const CUT: f64 = 0.2;
 const COIL: f64 = 0.1;
 /// Height of a turn of it in m.
 const PITCH: f64 = 0.06;
+/// Damping of the coil in s: five steps of 1/240 s.
+const COIL_DAMPING: f64 = 5.0 / 240.0;
 
 /// What holds an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,10 +130,12 @@ pub struct Draft {
 impl Draft {
     /// Returns the drawing of some features.
     pub fn of(features: &[Feature], floats: bool) -> Draft {
+        let coil = features.contains(&Feature::TouchesItself);
+        let damping = coil.then_some(Damping { axial: COIL_DAMPING, bending: COIL_DAMPING });
         let mut draft = Draft {
             origin: Vector3::zeros(),
             floats,
-            coil: features.contains(&Feature::TouchesItself),
+            coil,
             hangs: false,
             rests: features.contains(&Feature::Statics),
             from: 0.0,
@@ -138,7 +145,7 @@ impl Draft {
             clamps: false,
             sheave: false,
             wound: [None, None],
-            effects: Effects::default(),
+            effects: Effects { damping, ..Effects::default() },
             force_density: false,
             loads: Vec::new(),
             strength: None,

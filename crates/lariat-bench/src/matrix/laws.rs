@@ -88,7 +88,7 @@ pub fn finish(scene: &mut Scene) -> Result<(), Ended> {
 
 /// Runs a scene to its end, and reads it after each host step.
 fn finish_and_read(scene: &mut Scene, mut read: impl FnMut(&Scene) -> Result<(), Fault>) -> Result<(), Ended> {
-    while scene.time < DURATION - 0.25 * STEP {
+    while scene.is_before(DURATION) {
         let time = scene.time;
         let failed = |fault: Fault| Ended::Failed(time, fault.to_string());
         scene.step().map_err(|fault| if time == 0.0 { Ended::Refused(fault.to_string()) } else { failed(fault) })?;

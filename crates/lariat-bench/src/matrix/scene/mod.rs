@@ -143,11 +143,15 @@ impl Scene {
     /// # Errors
     /// As [`step`](Self::step).
     pub fn run_to(&mut self, time: f64) -> Result<(), Fault> {
-        let dt = f64::from(self.physics.integration_parameters.dt);
-        while self.time < time - 0.5 * dt {
+        while self.is_before(time) {
             self.step()?;
         }
         Ok(())
+    }
+
+    /// Returns whether a step brings it nearer to a time in s, whatever its length.
+    pub fn is_before(&self, time: f64) -> bool {
+        self.time < time - 0.5 * f64::from(self.physics.integration_parameters.dt)
     }
 
     /// Saves the state and reads it back; the functions of a program are attached anew.
