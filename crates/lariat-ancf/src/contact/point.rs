@@ -192,6 +192,14 @@ impl ContactPoint {
         self.remembered * self.offset
     }
 
+    /// Makes its offset smaller by an energy (J), which it stores.
+    pub fn take_up(&mut self, energy: f64) {
+        if energy > 0.0 {
+            let stored = self.law.at(self.depth_before - self.offset).energy + energy / self.weight;
+            self.offset = (self.depth_before - self.law.depth_of_energy(stored)).clamp(0.0, self.offset);
+        }
+    }
+
     /// Closes a share of the offset.
     pub fn close(&mut self, share: f64) {
         if self.remembered > 0.0 && self.offset > 0.0 {

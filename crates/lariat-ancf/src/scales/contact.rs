@@ -151,8 +151,8 @@ pub(crate) const MAX_HALF_TURN: f64 = 1.2;
 /// Unknown: some frames.
 pub(crate) const CLOSING_TIME: f64 = 0.25;
 
-/// Time in s in which the offset of an obstacle closes, and that of a cable, if losses pay for it.
-/// Unknown: three frames.
+/// Time in s in which the offset of an obstacle closes, if losses pay for it. Unknown: three
+/// frames.
 pub(crate) const OFFSET_TIME: f64 = 0.05;
 
 /// Share of the energy lost in the last step that closing offsets may cost. Derived: below one, so

@@ -97,6 +97,11 @@ pub struct PairMemory {
 }
 
 impl PairMemory {
+    /// Returns how far in m along both cables it is from arc lengths of material.
+    pub(crate) fn apart(&self, arcs: [f64; 2]) -> f64 {
+        [0, 1].map(|k| (self.arcs[k] - self.passed[k] - arcs[k]).abs()).iter().sum()
+    }
+
     /// Returns the energy in J that it stores.
     pub(crate) fn energy(&self) -> f64 {
         self.contact.energy

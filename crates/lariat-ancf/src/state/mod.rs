@@ -50,6 +50,9 @@ pub struct Memory {
     /// Power in W that contacts with obstacles took in the last step of the discrete gradient.
     #[serde(default)]
     pub lost: f64,
+    /// Power in W that damping took in that step.
+    #[serde(default)]
+    pub damped: f64,
     /// Contacts at the end of the last step of the discrete gradient.
     #[serde(default)]
     pub contacts: Vec<ContactMemory>,
@@ -89,6 +92,7 @@ impl Default for Memory {
             largest_energy: 0.0,
             differences: Differences::default(),
             lost: 0.0,
+            damped: 0.0,
             contacts: Vec::new(),
             pairs: Vec::new(),
             torsion: None,
@@ -127,6 +131,7 @@ impl State {
             largest_energy,
             differences,
             lost,
+            damped,
             contacts,
             pairs,
             torsion,
@@ -147,6 +152,7 @@ impl State {
         self.memory.largest_energy = *largest_energy;
         self.memory.differences.copy_from(differences);
         self.memory.lost = *lost;
+        self.memory.damped = *damped;
         self.memory.contacts.clone_from(contacts);
         self.memory.pairs.clone_from(pairs);
         self.memory.torsion.clone_from(torsion);
@@ -187,6 +193,7 @@ impl State {
             largest_energy,
             differences,
             lost,
+            damped,
             ..
         } = &self.memory;
         let lists = [
@@ -210,6 +217,7 @@ impl State {
             .and_then(|()| require("energy made (J)", *energy_made, *energy_made >= 0.0, ">= 0"))
             .and_then(|()| require("largest energy (J)", *largest_energy, *largest_energy >= 0.0, ">= 0"))
             .and_then(|()| require("power lost (W)", *lost, *lost >= 0.0, ">= 0"))
+            .and_then(|()| require("power of damping (W)", *damped, *damped >= 0.0, ">= 0"))
             .and_then(|()| self.q.iter().try_for_each(|&x| finite("position", x)))
             .and_then(|()| self.v.iter().try_for_each(|&x| finite("velocity", x)))
             .and_then(|()| acceleration.iter().chain(algorithmic).try_for_each(|&x| finite("acceleration", x)))

@@ -194,7 +194,7 @@ impl Equations<'_> {
     /// velocity: `rhs` is then the residual of all coordinates.
     pub fn step_balance(&mut self, state: &State, b: &mut StepVectors, work: &mut EffectWork) -> Balance {
         let loss = self.step_residual(state, b, false, work);
-        b.lost = 0.0;
+        (b.lost, b.damped) = (0.0, loss.effects);
         let mut balance = Balance { numerical: loss.numerical, ..Balance::default() };
         balance.to(Account::Elements).loss = loss.effects;
         let StepVectors { h, external, product, .. } = &*b;
@@ -270,6 +270,7 @@ impl Equations<'_> {
         let memory = &mut state.memory;
         b.contact.remember(&mut memory.contacts);
         memory.lost = (b.lost / b.h).max(0.0);
+        memory.damped = (b.damped / b.h).max(0.0);
         memory.differences.velocity.clone_from(&b.velocity_change);
         memory.differences.velocity.iter_mut().zip(&b.landed).for_each(|(change, landed)| *change -= landed);
         memory.differences.displacement.clone_from(&b.change);

@@ -41,6 +41,8 @@ pub(crate) struct StepVectors {
     pub means: [Vec<f64>; 4],
     /// Energy in J that contacts with obstacles lose.
     pub lost: f64,
+    /// Energy in J that damping takes.
+    pub damped: f64,
     /// Work of point loads in the present iterate in J.
     pub load_work: f64,
     /// Any product.

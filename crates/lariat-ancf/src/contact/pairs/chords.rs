@@ -32,6 +32,8 @@ pub(crate) struct Strand<'a> {
     /// Velocities of the coordinates when the step begins.
     pub velocity: &'a [f64],
     pub memory: &'a [PairMemory],
+    /// Power in W that damping took in the last step.
+    pub damped: f64,
     /// Length in m that came through the eye of a reel at the start: arc lengths of all material
     /// have grown by it.
     pub passed: f64,

@@ -204,7 +204,8 @@ mod tests {
             let q: Vec<f64> = (0..18).map(|_| next()).collect();
             let change: Vec<f64> = (0..18).map(|_| way * next()).collect();
             let model = &cable.model;
-            let strand = Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], passed: 0.0 };
+            let strand =
+                Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], damped: 0.0, passed: 0.0 };
             let pieces = [Piece::new(strand, 0), Piece::new(strand, 1)];
             let near = Near { pieces, from: [0.0, 1.0], reach: 0.04, same: round % 2 == 0 };
             tests += halves.find(&near);
@@ -243,7 +244,8 @@ mod tests {
             }
             let change: Vec<f64> = (0..30).map(|_| 0.2 * bend * next()).collect();
             let model = &cable.model;
-            let strand = Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], passed: 0.0 };
+            let strand =
+                Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], damped: 0.0, passed: 0.0 };
             let strands = Strands { count: 1, get: &|_| strand, over_bodies: &|_, _| f64::INFINITY, pairs: None };
             boxes.find(&strands);
             for first in 0..3 {

@@ -23,8 +23,10 @@
 //! after (passage.rs), so that strands that slide and bend do not sink by more than the law says:
 //! loops that hang in each other are within 1e-4 r of it, while the chords in contact do not
 //! change. An overhand knot in a rope of radius 5 mm is up to 0.25 r deep while it is drawn tight,
-//! and 0.05 to 0.23 r when it holds. A contact that is born deep keeps its offset until friction
-//! pays for it. The depth that is read, [`PairTouch::depth`], has the offset in it.
+//! and 0.05 to 0.23 r when it holds. A contact that is born deep has an offset of that depth.
+//! It takes up the energy of one beside it that ends, as a load that slides over the end of a chord
+//! does; what is left of it closes as fast as friction and damping pay for it. Ropes without both
+//! keep it. The depth that is read, [`PairTouch::depth`], has the offset in it.
 //!
 //! The lateral stiffness of strands that wrap around each other, `N/(R - g)` with the radius R of
 //! the bend and the distance g of the lines, is not in the equations of an iteration: where it is

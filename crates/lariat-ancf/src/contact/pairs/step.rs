@@ -31,12 +31,12 @@ pub(crate) struct PairStep {
     pub(super) leg: OneLeg,
     /// Energy in J that the contacts store at the beginning.
     before: f64,
+    /// Energy in J that was remembered: what is more than that is left.
+    stored: f64,
     /// Strands that go through each other in the step.
     crossed: Option<[usize; 2]>,
     /// Number of searches.
     searches: usize,
-    /// Whether contacts close offsets.
-    close: bool,
     /// Whether friction missed its bounds when that was last asked.
     pub lags: bool,
     /// Whether any cable can touch another or itself.
@@ -65,7 +65,7 @@ impl PairStep {
     /// Begins a step of length `h` (s); contacts close offsets if `close`.
     pub fn begin(&mut self, (h, leg): (f64, OneLeg), close: bool, strands: &Strands<'_, '_>) {
         self.points.clear();
-        (self.h, self.leg, self.before, self.searches, self.close) = (h, leg, 0.0, 0, close);
+        (self.h, self.leg, self.before, self.stored, self.searches) = (h, leg, 0.0, 0.0, 0);
         self.on = (0..strands.count).any(|c| strands.may_touch(c));
         self.columns.clear();
         self.lags = false;
@@ -75,9 +75,68 @@ impl PairStep {
         self.taken.resize_with(strands.count, Vec::new);
         for (c, taken) in self.taken.iter_mut().enumerate() {
             taken.clear();
-            taken.resize((strands.get)(c).memory.len(), false);
+            let memory = (strands.get)(c).memory;
+            taken.resize(memory.len(), false);
+            self.stored += memory.iter().map(|memory| memory.contact.energy).sum::<f64>();
         }
         self.look(strands, NEAR_PAIR);
+        self.hand_over(strands);
+        if close {
+            self.close_offsets(strands);
+        }
+        self.start(strands, 0);
+    }
+
+    /// Gives the energy of contacts that none took up to the nearest one that has an offset: one
+    /// that slides over the end of a chord to what has begun beside it. What is not given is lost,
+    /// and strands would sink by the depth of a load at each chord.
+    fn hand_over(&mut self, strands: &Strands<'_, '_>) {
+        for a in 0..strands.count {
+            let memory = (strands.get)(a).memory;
+            for (memory, taken) in memory.iter().zip(&mut self.taken[a]).filter(|(_, taken)| !**taken) {
+                let mut best: Option<(f64, usize)> = None;
+                for (k, pair) in self.points.iter().enumerate().filter(|(_, pair)| pair.ends[0].strand == a) {
+                    let other = (strands.get)(pair.ends[1].strand);
+                    let passed = [(strands.get)(a).passed, other.passed];
+                    let apart = memory.apart([0, 1].map(|k| pair.from[k] - passed[k]));
+                    let may = memory.contact.obstacle == other.key && pair.point.offset > 0.0;
+                    if may && apart < HAND_ON * pair.reach && best.is_none_or(|(least, _)| apart < least) {
+                        best = Some((apart, k));
+                    }
+                }
+                if let Some((_, k)) = best {
+                    *taken = true;
+                    self.points[k].point.take_up(memory.contact.energy);
+                }
+            }
+        }
+    }
+
+    /// Closes offsets, by a share of what friction and damping took in the last step: as long as
+    /// they take as much in this one, that makes no energy.
+    fn close_offsets(&mut self, strands: &Strands<'_, '_>) {
+        let friction =
+            |strand: &Strand<'_>| strand.memory.iter().map(|memory| memory.contact.friction_power).sum::<f64>();
+        let powers = (0..strands.count).map(|c| (strands.get)(c)).map(|strand| friction(&strand) + strand.damped);
+        let budget = PAID * powers.sum::<f64>() * self.h;
+        let cost: f64 = self.points.iter().map(|pair| pair.point.cost()).sum();
+        if cost > 0.0 {
+            let share = (self.h / CLOSING_TIME).min(1.0).min(budget / cost);
+            self.points.iter_mut().for_each(|pair| pair.point.close(share));
+        }
+    }
+
+    /// Begins the step of the contacts from one on: what does not come fast, but is pressed or
+    /// lies, has the law of its depth.
+    fn start(&mut self, strands: &Strands<'_, '_>, first: usize) {
+        for pair in &mut self.points[first..] {
+            if pair.point.speed > 0.0 {
+                let pieces = pair.ends.map(|end| Piece::new((strands.get)(end.strand), end.element));
+                let opens = pair.opens(pieces.each_ref());
+                pair.point.find_loss(opens, self.leg.b);
+            }
+            self.before += pair.point.energy_before();
+        }
     }
 
     /// Searches again if an iterate is far from that of the last search, and adds what it finds.
@@ -86,7 +145,9 @@ impl PairStep {
             && self.searches < MAX_SEARCHES
             && (0..strands.count).any(|c| deviates(&(strands.get)(c), &self.searched[c]))
         {
+            let known = self.points.len();
             self.look(strands, 0.0);
+            self.start(strands, known);
         }
     }
 
@@ -176,16 +237,6 @@ impl PairStep {
         let still = frame(Vector3::zeros(), self.h);
         let start = point.start;
         point.recall(&start, &still, memory.as_ref());
-        if let Some(memory) = memory.filter(|memory| self.close && memory.friction_power > 0.0) {
-            let paid = PAID * memory.friction_power * self.h;
-            point.close((paid / point.cost()).min(self.h / CLOSING_TIME).min(1.0));
-        }
-        // what does not come fast, but is pressed or lies, has the law of its depth
-        if point.speed > 0.0 {
-            let opens = pair.opens(pieces.each_ref());
-            pair.point.find_loss(opens, self.leg.b);
-        }
-        self.before += pair.point.energy_before();
         self.points.push(pair);
     }
 
@@ -202,8 +253,7 @@ impl PairStep {
         let limit = HAND_ON * candidate.reach + 2.0 * way;
         let mut best: Option<(f64, usize)> = None;
         for (i, memory) in (strands.get)(a).memory.iter().enumerate() {
-            let of = |k: usize| (memory.arcs[k] - memory.passed[k] - arcs[k]).abs();
-            let apart = of(0) + of(1);
+            let apart = memory.apart(arcs);
             let may = memory.contact.obstacle == key && !self.taken[a][i] && apart < limit;
             if may && best.is_none_or(|(least, _)| apart < least) {
                 best = Some((apart, i));
@@ -275,7 +325,8 @@ impl PairStep {
 
     /// Evaluates the contacts at the present iterate, and returns what they do.
     pub fn balance(&mut self, strands: &Strands<'_, '_>) -> ContactBalance {
-        let mut sum = ContactBalance { before: self.before, ..ContactBalance::default() };
+        let left = (self.stored - self.before).max(0.0);
+        let mut sum = ContactBalance { before: self.before, left, ..ContactBalance::default() };
         for pair in &mut self.points {
             let [missed, work] = pair.follow(pair.ends.map(|end| (strands.get)(end.strand)).each_ref());
             let now = &pair.point.now;

@@ -19,7 +19,7 @@ fn with_strands<T>(
         let key = if model.contact_key == 0 { c as u64 } else { model.contact_key };
         let passed = snapshot.passed_at_start();
         let (q, velocity, memory) = (&state.q[..], &state.v[..], &state.memory.pairs[..]);
-        Strand { key, model, q, change: &step_buffers.change, velocity, memory, passed }
+        Strand { key, model, q, change: &step_buffers.change, velocity, memory, damped: state.memory.damped, passed }
     };
     let over_bodies = |strands: [usize; 2], arcs: [f64; 2]| {
         let on = |k: usize| {
