@@ -3,7 +3,7 @@
 //! # Equation
 //!
 //! ```text
-//! made   E - W <= E0 + share S        E energy of all, W work from outside, S largest kinetic and strain energy
+//! made   E - W <= E0 + share S        E energy of all, W work from outside less losses, S largest kinetic and strain energy
 //! kept   |P - P0|, |L - L0|           of systems that nothing from outside acts on
 //! saved  bits after a state was saved and read back = bits of the run that was left alone
 //! finer  |x - x'| <= share D          x' at an eighth of the host step, D how far anything moved
@@ -12,7 +12,8 @@
 //!
 //! # Validity
 //!
-//! What contacts take is not in W, so the energy law says what is made, not what is lost. Host
+//! W has what cables and what touches them lose by the energy law, but not what Rapier's contacts and
+//! joints take, so the law says what is made. Contact between what moves is no work from outside. Host
 //! steps decide when a cable breaks: the finer run breaks up to one host step before. Where it has
 //! other parts, centres of mass are compared.
 

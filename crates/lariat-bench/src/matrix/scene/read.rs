@@ -9,8 +9,9 @@ use lariat_rapier::rapier::prelude::*;
 /// Energies and works up to now, in J.
 #[derive(Clone, Copy, Debug)]
 pub struct Ledger {
-    /// Kinetic, strain and gravity energy of all, less all work on it but that of contacts; `None`
-    /// where that is not known: of a drum, the energy of what it winds up.
+    /// Kinetic, strain and gravity energy of all and what contacts store, less all work on it from
+    /// outside, and with what contacts and sheaves took; `None` where that is not known: of a drum, the
+    /// energy of what it winds up.
     pub kept: Option<f64>,
     /// Kinetic and strain energy.
     pub scale: f64,
@@ -76,8 +77,12 @@ impl Scene {
         let mut work = 0.0;
         for (_, cable) in self.set.iter() {
             let law = cable.energy_law();
+            // what contacts do within the system is no work from outside: their force on cables has what loose
+            // bodies get, and what passes a sheave. What they take is known
+            let effects = cable.effect_work();
+            work += effects.total() - effects.contact + law.obstacles - law.dissipated();
             // that of supports has the work of bodies that do not give way, and of kinematic ones
-            work += cable.effect_work().total() + law.supports + law.obstacles;
+            work += law.supports;
             // the work of loads is independent of the run's account, which counts all forces on
             // bodies, too
             for load in cable.loads().iter().filter(|load| load.history.is_empty()) {
@@ -92,7 +97,8 @@ impl Scene {
         }
         let scale = cables.kinetic + cables.axial + cables.bending + energy.bodies_kinetic;
         let known = self.set.drums().next().is_none();
-        Ok(Ledger { kept: known.then_some(energy.total() - work), scale })
+        let stored: f64 = self.set.iter().map(|(_, cable)| cable.contact_energy()).sum();
+        Ok(Ledger { kept: known.then_some(energy.total() + stored - work), scale })
     }
 
     /// Returns the work in J of the loads that vary, from the origin to where they are, with the
