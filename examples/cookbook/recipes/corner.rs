@@ -53,7 +53,7 @@ impl Corner {
 
 impl Stage for Corner {
     fn step(&mut self) -> Outcome<()> {
-        if self.path.len() == 10_000 {
+        if self.path.len() == 120 {
             self.reel_in(0.5)?;
         }
         self.cables.step(&mut self.world)?;

@@ -57,6 +57,12 @@ impl Stage for Edge {
         self.cables.step(&mut self.world)?;
         let winch = self.cables.get(self.rope)?.reel(At::Start).map_or(f64::NAN, |reel| reel.tension);
         let hook = self.cables.attachment(self.hook)?.force().norm();
+        if self.pulls.len() % 40 == 0 && std::env::var("DBG").is_ok() {
+            let reel = self.cables.get(self.rope)?.reel(At::Start);
+            println!("{} winch {winch:.1} hook {hook:.1} y {:.3} v {:.3} {reel:?}", self.pulls.len(), self.world.bodies[self.load].translation().y, self.world.bodies[self.load].linvel().y);
+            let c = self.cables.get(self.rope)?;
+            println!("   {:?}", c.positions().iter().map(|p| ((p.x * 100.0).round() / 100.0, (p.y * 100.0).round() / 100.0)).collect::<Vec<_>>());
+        }
         self.pulls.push((winch, hook, f64::from(self.world.bodies[self.load].linvel().y)));
         Ok(())
     }

@@ -60,6 +60,11 @@ impl Stage for Lamps {
         }
         self.cables.step(&mut self.world)?;
         self.steps += 1;
+        if self.steps % 200 == 0 && std::env::var("DBG").is_ok() {
+            let b = &self.world.bodies[self.lamps[3].1];
+            let c = self.cables.get(self.lamps[3].0)?;
+            println!("{} asleep {} v {:.2e} w {:.2e} rope {:.2e} x {:.5}", self.steps, self.asleep()?, b.linvel().length(), b.angvel().length(), lariat_rapier::lariat_ancf::coupling::Coupling::speed(c), b.translation().x);
+        }
         for (k, at) in [GUST[0] - 1, GUST[0] + 30, 3600].into_iter().enumerate() {
             if self.steps == at {
                 self.asleep[k] = self.asleep()?;

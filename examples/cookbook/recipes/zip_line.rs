@@ -58,6 +58,10 @@ impl Stage for ZipLine {
         self.cables.step(&mut self.world)?;
         let body = &self.world.bodies[self.rider];
         let (p, v) = (body.translation(), body.linvel());
+        if self.path.len() % 20 == 0 && std::env::var("DBG").is_ok() {
+            let e = self.cables.energy(&self.world)?;
+            println!("{} x {:.2} y {:.2} v {:.2} ({:.2} {:.2}) E {:.1} {e:?}", self.path.len(), p.x, p.y, v.length(), v.x, v.y, e.total());
+        }
         self.path.push((f64::from(p.x), f64::from(p.y), f64::from(v.length())));
         Ok(())
     }
