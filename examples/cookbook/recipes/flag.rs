@@ -70,9 +70,18 @@ impl Stage for Flag {
     }
 
     fn check(&mut self) -> Outcome<String> {
-        let p = vector(self.world.bodies[self.flag].translation());
-        let reel = self.cables.get(self.halyard)?.reel(At::Start);
-        let force = self.cables.attachment(self.hook)?.force();
-        Ok(format!("flag at {p:?}, reel {reel:?}, force {force:?}"))
+        // 6.5 m hung behind the truck, 5 m were hoisted; the halyard pulls against wind and weight
+        let attachment = self.cables.attachment(self.hook)?;
+        let force = attachment.force();
+        let hook = vector(self.world.bodies[self.flag].position() * Vector::new(0.0, 0.3, 0.0));
+        let below = (hook - Vector3::new(0.0, POLE, 0.0)).norm();
+        let (wind, weight) = (0.5 * 1.2 * SHADE * WIND * WIND, FLAG * 9.81);
+        let line = format!(
+            "the flag hangs {below:.3} m under the truck, by hand 1.500 m; the halyard pulls with {:.2} N against the wind and {:.2} N upwards, by hand {wind:.2} N and {weight:.2} N",
+            -force.x, force.y
+        );
+        let fine =
+            (below - 1.5).abs() < 0.01 && (-force.x / wind - 1.0).abs() < 0.05 && (force.y / weight - 1.0).abs() < 0.02;
+        if fine { Ok(line) } else { Err(line.into()) }
     }
 }

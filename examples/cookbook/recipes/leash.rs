@@ -1,9 +1,9 @@
 //! A kinematic character on a rope.
 
 use super::{Outcome, Stage};
-use lariat_rapier::lariat_ancf::{Section, Vector3};
+use lariat_rapier::lariat_ancf::Section;
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentHandle, CableSet, Rope, RopeEnd};
+use lariat_rapier::{AttachmentHandle, CableSet, Rope};
 
 const LENGTH: f64 = 5.0; // m
 const EA: f64 = 4.0e3; // N: a bungee
@@ -24,11 +24,9 @@ impl Leash {
         let at = Vector::new(2.0, 1.0, 0.0);
         let character = RigidBodyBuilder::kinematic_position_based().translation(at);
         let (character, _) = world.insert(character, ColliderBuilder::capsule_y(0.5, 0.3));
-        let (post, hand) = (Vector3::new(0.0, 1.0, 0.0), Vector3::new(2.0, 1.0, 0.0));
-        let leash = Rope::new(Section::from_stiffness(EA, 0.005, 0.05)?).slack(LENGTH / 2.0 - 1.0);
-        let ends = (RopeEnd { point: post, body: None }, RopeEnd { point: hand, body: Some(character) });
+        let leash = Rope::new(Section::from_stiffness(EA, 0.005, 0.05)?).unstretched_length(LENGTH);
         let mut cables = CableSet::new();
-        let rope = cables.add_rope(&world, ends.0, ends.1, leash)?;
+        let rope = cables.add_rope(&world, [0.0, 1.0, 0.0], (character, [2.0, 1.0, 0.0]), leash)?;
         let hand = rope.end.ok_or("the leash is attached to the character")?;
         Ok(Leash { world, cables, character, hand })
     }

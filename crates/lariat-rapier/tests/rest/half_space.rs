@@ -20,13 +20,16 @@ fn bodies_hang_clear_of_a_half_space() {
         (SharedShape::cylinder(0.3, 0.2), 0.3f64.hypot(0.2)),
     ];
     for (shape, reach) in &shapes {
-        for (tilt, clearance) in [(0.0, 0.02), (0.0, 0.5), (0.0, 20.0), (0.5, 0.02), (-0.4, 3.0), (0.5, 300.0), (0.3, -0.2)] {
+        for (tilt, clearance) in
+            [(0.0, 0.02), (0.0, 0.5), (0.0, 20.0), (0.5, 0.02), (-0.4, 3.0), (0.5, 300.0), (0.3, -0.2)]
+        {
             let mut world = PhysicsWorld::new();
             let normal = Vector3::new(f64::sin(tilt), f64::cos(tilt), 0.0);
             // the plane is as far below the body as its shape reaches in any direction, and the clearance
             let down = 2.0 * (1.0 + 10.0 * G / 1e5) + 0.3;
             let at = Vector3::new(0.0, -down, 0.0) - normal * (reach + clearance);
-            let plane = ColliderBuilder::new(SharedShape::halfspace(Vector::new(normal.x as Real, normal.y as Real, 0.0)));
+            let plane =
+                ColliderBuilder::new(SharedShape::halfspace(Vector::new(normal.x as Real, normal.y as Real, 0.0)));
             let plane = plane.translation(Vector::new(at.x as Real, at.y as Real, 0.0));
             let ground = world.insert_body(RigidBodyBuilder::fixed());
             world.insert_collider(plane, Some(ground));
