@@ -61,7 +61,7 @@ impl Stage for Corner {
     fn check(&mut self) -> Outcome<String> {
         // taut from the hook to the corner and from there to the hands: both parts are as long as what is out, with its stretch
         let rope = self.cables.get(self.rope)?;
-        let (hands, corner) = (rope.sample(At::End)?.position, Vector3::new(1.0, -4.0, 0.0));
+        let (hands, corner) = (rope.sample(rope.length())?.position, Vector3::new(1.0, -4.0, 0.0));
         let out = rope.reel(At::Start).ok_or("the rope has a reel")?.length_out;
         let pull = self.cables.attachment(self.hand)?.force().norm();
         let (ways, expected) = (corner.norm() + (hands - corner).norm(), out * (1.0 + pull / 1.0e5));

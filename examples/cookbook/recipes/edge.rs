@@ -3,7 +3,7 @@
 use super::{Outcome, Stage};
 use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, Fidelity, Reel, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentHandle, AttachmentKind, CableHandle, CableSet};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
 use std::f64::consts::FRAC_PI_2;
 
 const FRICTION: f64 = 0.2;

@@ -2,9 +2,9 @@
 
 use super::{Outcome, Stage};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Cable, Fidelity, RopeKind, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentHandle, CableSet, Rope};
+use lariat_rapier::{AttachmentHandle, AttachmentKind, CableSet};
 
 const EA: f64 = 5.0e4; // N
 const PULL: f64 = 15.0; // N: 1 kg at 5/3 m and 3 rad/s
@@ -33,12 +33,22 @@ impl Teleport {
             world.insert(body.can_sleep(false), ColliderBuilder::ball(0.1).mass(mass)).0
         };
         let balls = [ball(-1.0 / 3.0, 5.0), ball(5.0 / 3.0, 1.0)];
-        // as long as it is under this pull: it starts without a jerk
-        let rope = Rope::new(Section::from_stiffness(EA, 0.01, 0.002)?).unstretched_length(2.0 / (1.0 + PULL / EA));
+        // it whirls with them, and is as long as it is under this pull: it starts without a jerk
+        let ends = [-1.0 / 3.0, 5.0 / 3.0].map(|x| Vector3::new(x, 0.0, 0.0));
+        let rope = Cable::builder()
+            .points(ends)
+            .length(2.0 / (1.0 + PULL / EA))
+            .section(Section::from_stiffness(EA, 0.01, 0.002)?)
+            .elements(10)
+            .damped_as(RopeKind::FibreRope)
+            .fidelity(Fidelity::Game)
+            .velocity(-Vector3::y())
+            .angular_velocity(Vector3::z() * 3.0)
+            .build()?;
         let mut cables = CableSet::new();
-        let rope =
-            cables.add_rope(&world, (balls[0], [-1.0 / 3.0, 0.0, 0.0]), (balls[1], [5.0 / 3.0, 0.0, 0.0]), rope)?;
-        let hook = rope.end.ok_or("the rope is attached to a body")?;
+        let rope = cables.insert(rope);
+        cables.attach_here(&world, rope, At::Start, balls[0], AttachmentKind::Ball)?;
+        let hook = cables.attach_here(&world, rope, At::End, balls[1], AttachmentKind::Ball)?;
         Ok(Teleport { world, cables, balls, hook, steps: 0, pulls: Vec::new() })
     }
 

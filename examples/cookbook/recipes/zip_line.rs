@@ -66,9 +66,9 @@ impl Stage for ZipLine {
         let expected = (2.0 * 9.81 * (self.start.y - at.y)).max(0.0).sqrt();
         let wheel = vector(*body.position() * Vector::new(0.0, HANGS as Real, 0.0));
         let ways = wheel.norm() + (wheel - Vector3::new(SPAN, -DROP, 0.0)).norm();
-        let passed = self.cables.sheave(self.wheel)?.passed();
+        let way = -self.cables.sheave(self.wheel)?.passed(); // line that ran to the part before the wheel
         let line = format!(
-            "{speed:.2} m/s after {passed:.1} m, by energy {expected:.2} m/s; both parts are {ways:.2} m, the line {:.2} m",
+            "{speed:.2} m/s after {way:.1} m, by energy {expected:.2} m/s; both parts are {ways:.2} m, the line {:.2} m",
             self.length
         );
         let fine = (speed / expected - 1.0).abs() < 0.05 && (ways / self.length - 1.0).abs() < 3e-3;
