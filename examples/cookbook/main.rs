@@ -1,7 +1,7 @@
 //! The recipes of docs/cookbook.md: runs each, checks it, and measures its cost per host step.
 //!
-//! `cargo run --release --example cookbook` prints results and the table; with `-- --out docs/cookbook.md` code and table go between
-//! their marks on the page.
+//! `cargo run --release --example cookbook` prints results and the table; with `-- --only lamps` those of one; with
+//! `-- --out docs/cookbook.md` code and table go between their marks on the page.
 
 mod recipes;
 
@@ -41,24 +41,25 @@ fn replace(page: &str, name: &str, new: &str) -> Outcome<String> {
 }
 
 fn main() -> Outcome<()> {
-    let mut file = None;
+    let (mut file, mut only) = (None, None);
     let mut arguments = std::env::args().skip(1);
     while let Some(flag) = arguments.next() {
         match (flag.as_str(), arguments.next()) {
             ("--out", Some(value)) => file = Some(value),
-            _ => return Err("usage: cookbook [--out docs/cookbook.md]".into()),
+            ("--only", Some(value)) => only = Some(value),
+            _ => return Err("usage: cookbook [--out docs/cookbook.md | --only RECIPE]".into()),
         }
     }
     let machine = machine::line();
     let mut table = String::from(
         "| recipe | cables x elements | bodies | integrator | us per host step | slowest 1 % |\n|---|---|---:|---|---:|---:|\n",
     );
-    for recipe in &ALL {
+    for recipe in ALL.iter().filter(|recipe| only.as_deref().is_none_or(|name| name == recipe.name)) {
         let (mean, slow, result) = cost(recipe)?;
         println!("{:<9} {mean:8.1} us, slowest 1 % {slow:8.1} us; {result}", recipe.name);
         writeln!(table, "{} {mean:.0} | {slow:.0} |", recipe.row())?;
     }
-    let Some(file) = file else { return Ok(()) };
+    let (Some(file), None) = (file, only) else { return Ok(()) };
     let mut page = replace(&std::fs::read_to_string(&file)?, "cost", &format!("{table}\n{machine}\n"))?;
     for recipe in &ALL {
         page = replace(&page, recipe.name, &format!("```rust,ignore\n{}\n```\n", recipe.shown()))?;

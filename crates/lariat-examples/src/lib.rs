@@ -15,6 +15,7 @@ macro_rules! page {
 mod pages {
     page!(Readme, "../../../README.md");
     page!(Modes, "../../../docs/modes.md");
+    page!(OwnSets, "../../../docs/own_sets.md");
     page!(Theory, "../../../docs/theory.md");
     page!(Ancf, "../../lariat-ancf/README.md");
     page!(Rapier, "../../lariat-rapier/README.md");

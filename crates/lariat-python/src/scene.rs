@@ -5,7 +5,7 @@ use crate::error::{Raise, raise};
 use lariat_ancf::study::{InvalidTarget, Target};
 use lariat_scene::command;
 use lariat_scene::folder;
-use lariat_scene::run::{self, Options, Recording};
+use lariat_scene::run::{self, Options, Recording, State};
 use lariat_scene::signed::{self, Comment};
 use lariat_scene::sweep::{self, Row, Source, Store};
 use lariat_scene::{Error, Purpose, Scene};
@@ -39,6 +39,13 @@ impl Recorded {
     /// The motion as an animated SVG.
     fn svg(&self, py: Python<'_>) -> String {
         py.detach(|| self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).svg())
+    }
+
+    /// The state of the world, from which a run of the same scene can start.
+    fn state(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| State::of(&self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).world))
+            .map(|state| state.to_text())
+            .map_err(raise)
     }
 
     /// The motion as OpenUSD.
@@ -140,10 +147,10 @@ impl AskedError {
     }
 }
 
-/// Runs a scene, or finds its equilibrium. Returns the summary, the rows of the probes, the exception of a
-/// run that failed, and the run.
+/// Runs a scene, from a state if there is one, or finds its equilibrium. Returns the summary, the rows of the
+/// probes, the exception of a run that failed, and the run.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides, *, statics=false, error=None, progress=None))]
+#[pyo3(signature = (file, text, overrides, *, statics=false, error=None, start=None, progress=None))]
 pub fn run_scene<'py>(
     py: Python<'py>,
     file: &str,
@@ -151,21 +158,27 @@ pub fn run_scene<'py>(
     overrides: Vec<String>,
     statics: bool,
     error: Option<AskedError>,
+    start: Option<(&str, &str)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Run<'py>> {
-    let purpose = if statics { Purpose::Static } else { Purpose::Run };
+    let purpose = match (statics, start) {
+        (true, _) => Purpose::Static,
+        (false, Some(_)) => Purpose::Resume,
+        (false, None) => Purpose::Run,
+    };
     let error = error.map(AskedError::target).transpose()?;
     let stop = Arc::new(AtomicBool::new(false));
     let mut teller = Teller::new(progress);
     let recording = py.detach(|| {
         let scene = Scene::parse(file, text, &overrides, purpose)?;
+        let from = start.map(|(text, source)| State::parse(text, source)).transpose()?;
         let flag = Arc::clone(&stop);
         let mut report = |time: f64| {
             if !teller.tell(time) {
                 flag.store(true, Ordering::Relaxed);
             }
         };
-        run::collect(&scene, purpose, &mut Options { stop, progress: Some(&mut report), error, ..Options::default() })
+        run::collect(&scene, purpose, &mut Options { stop, progress: Some(&mut report), error, from, ..Options::default() })
     });
     if let Some(error) = teller.failed {
         return Err(error);

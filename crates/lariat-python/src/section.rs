@@ -1,6 +1,6 @@
 //! `Section`: stiffness and mass of a cable.
 
-use crate::error::raise;
+use crate::error::{Raise, raise};
 use lariat_ancf as ancf;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -18,6 +18,12 @@ pub struct Section(pub ancf::Section);
 
 fn made(section: Result<ancf::Section, ancf::Error>) -> PyResult<Section> {
     section.map(Section).map_err(raise)
+}
+
+/// Returns the material of a name, as scenes have it.
+fn named(material: &str) -> PyResult<ancf::RopeMaterial> {
+    serde_json::from_value(serde_json::Value::from(material))
+        .map_err(|error| raise(Raise::new("BuilderError", format!("material: {error}"))))
 }
 
 #[pymethods]
@@ -64,6 +70,23 @@ impl Section {
     #[staticmethod]
     fn wire_rope(diameter: f64) -> PyResult<Self> {
         made(ancf::Section::wire_rope(diameter))
+    }
+
+    /// A rope or chain of this nominal diameter in m, that of a chain of its bar, as catalogues
+    /// have them: ``"nylon"``, ``"polyester"``, ``"hmpe"``, ``"wire_rope"`` or ``"chain"``.
+    /// Catalogues have force over elongation: add ``AxialLaw("hooke")``.
+    ///
+    /// Raises BuilderError for another material, InvalidValueError for a diameter that is not
+    /// positive and at most 0.35 m.
+    #[staticmethod]
+    fn rope(material: &str, diameter: f64) -> PyResult<Self> {
+        made(named(material)?.section(diameter))
+    }
+
+    /// The breaking load in N of such a rope or chain, for ``set_strength``. Raises as ``rope``.
+    #[staticmethod]
+    fn breaking_load(material: &str, diameter: f64) -> PyResult<f64> {
+        named(material)?.breaking_load(diameter).map_err(raise)
     }
 
     /// EA in N.

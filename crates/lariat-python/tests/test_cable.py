@@ -259,3 +259,16 @@ def test_names_are_listed() -> None:
     assert lariat.recommended_elements("game") == 10
     assert lariat.Section.wire_rope(0.01) == pickle.loads(pickle.dumps(lariat.Section.wire_rope(0.01)))
     assert repr(lariat.Integrator("esdirk4", tolerance=1e-6)) == "Integrator(\"esdirk4\", tolerance=1e-6)"
+
+
+def test_ropes_and_chains_are_sections_by_their_names() -> None:
+    """Source: the coefficients of MoorPy for a studless chain (crates/lariat-ancf/src/material.rs), at a bar of 20 mm."""
+    chain = lariat.Section.rope("chain", 0.02)
+    assert chain.mass_per_length == pytest.approx(20.01e3 * 0.02**2)
+    assert chain.axial_stiffness == pytest.approx(85.61e9 * 0.02**2 - 3.927e7 * 0.02**3) and chain.bending_stiffness == 0.0
+    assert lariat.Section.breaking_load("chain", 0.02) == pytest.approx(910.7 * 0.02 + 1.206e9 * 0.02**2 - 2.192e9 * 0.02**3)
+    assert lariat.Section.rope("wire_rope", 0.01).axial_stiffness == lariat.Section.wire_rope(0.01).axial_stiffness
+    with pytest.raises(errors.BuilderError, match="polyester"):
+        lariat.Section.rope("hemp", 0.02)
+    with pytest.raises(errors.InvalidValueError):
+        lariat.Section.rope("nylon", 20.0)

@@ -246,3 +246,23 @@ def test_a_body_of_mujoco_is_held(integrator: str, mass: float) -> None:
         assert energy() - begin > -0.1 * scale
     place = data.xipos[1] + data.xmat[1].reshape(3, 3) @ [0, 0.05, 0]
     assert rope.positions[-1] == pytest.approx(place, abs=1e-9)
+
+
+def test_a_cable_has_the_gravity_of_a_model_of_mujoco() -> None:
+    """MuJoCo's z axis is up: a light body under a heavier rope stays where it hangs; one whose rope was given a gravity keeps it."""
+    mujoco = pytest.importorskip("mujoco")
+    from lariat_cables.with_mujoco import MujocoExchange
+
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><option timestep="0.002" integrator="RK4"/><worldbody><body name="b" pos="0 0 -2.05">'
+        '<freejoint/><geom type="box" size="0.05 0.05 0.05" mass="0.05"/></body></worldbody></mujoco>'
+    )
+    section = lariat.Section(1e5, 0.01, 0.1)
+    for gravity, own in ((None, model.opt.gravity), ([0, 0, -1.62], [0, 0, -1.62])):
+        data = mujoco.MjData(model)
+        rope = lariat.Cable([[0, 0, 0], [0, 0, -2]], section, elements=4, fix="start", fidelity="game", gravity=gravity)
+        pair = MujocoExchange(model, data, rope, [("end", "b")])
+        for _ in range(200):
+            pair.step()
+        assert np.array_equal(pair.exchange.coupling.cable.gravity, own)
+        assert np.abs(data.xpos[model.body("b").id] - [0, 0, -2.05]).max() < 1e-3

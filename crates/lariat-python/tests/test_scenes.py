@@ -154,6 +154,33 @@ def test_the_wheel_has_the_command(tmp_path: Path) -> None:
     assert subprocess.run([*command, "rn"], capture_output=True, text=True).returncode == 2
 
 
+def test_a_run_starts_from_the_equilibrium_that_statics_found(tmp_path: Path) -> None:
+    """A hanging rope stays where it hangs; drawn level it falls by g t^2/2 meanwhile. From memory, pickled, by a folder of Python or of
+    the command: the same bits."""
+    hangs = {**ROPE, "cable": [{**ROPE["cable"][0], "points": [[0, 0, 0], [1, 0, 0]], "length": 1.3}]}  # type: ignore[index]
+    hangs["attachment"] = [*ROPE["attachment"], {"cable": "rope", "at": "end", "body": "world"}]  # type: ignore[misc]
+    hangs["probe"] = [{"name": "middle", "cable": "rope", "at": "50 %"}]
+    found = lariat.statics(hangs)
+    run = lariat.run(hangs, start=found, set={"duration": 0.3}, progress=False)
+    rest = found.probes["middle"].position[0]
+    assert rest[1] < -0.3 and np.abs(run.probes["middle"].position - rest).max() < 1e-6
+    assert np.abs(lariat.run(hangs, progress=False).probes["middle"].position[0] - rest).max() > 0.01
+    scene, own, other = tmp_path / "scene.toml", tmp_path / "own", tmp_path / "other"
+    scene.write_text(lariat._lariat.to_toml(hangs))
+    found.save(own)
+    command = [Path(sys.executable).with_name("lariat"), "static", scene, "--out", other]
+    assert subprocess.run(command, capture_output=True).returncode == 0
+    for start in (pickle.loads(pickle.dumps(found)), own, str(other)):
+        again = lariat.run(hangs, start=start, set={"duration": 0.3}, progress=False)
+        assert (again.probes["middle"].rows == run.probes["middle"].rows).all()
+    with pytest.raises(errors.StateError, match='cable "rope" differs'):
+        lariat.run(hangs, start=found, set={"cable.rope.length": 1.4})
+    with pytest.raises(errors.ReadError):
+        lariat.run(hangs, start=tmp_path)
+    with pytest.raises(ValueError, match="statics"):
+        lariat.run(hangs, start=run)
+
+
 def test_a_run_pickles_with_its_page() -> None:
     run = lariat.run(ROPE, progress=False)
     again = pickle.loads(pickle.dumps(run))

@@ -92,3 +92,22 @@ def test_what_cannot_be_in_water_is_refused_by_name() -> None:
         world.set_water(lariat.Water(1000.0, level=None, wave=lariat.Wave(0.3, 8.0)))
     with pytest.raises(TypeError, match="Water"):
         world.set_water(1000.0)  # type: ignore[arg-type]
+
+
+def test_cables_are_in_the_water_of_a_world_by_the_effects_that_it_makes() -> None:
+    """Source: Archimedes' principle and Morison's formula, of the part that is wet: 3 m of 4."""
+    water = lariat.Water(1000.0, level=0.0, flow=lariat.Flow([0.05, 0, 0]))
+    section = lariat.Section(1e5, 0.0, 0.5, diameter=0.02, outer_area=math.pi * 1e-4)
+    effects = [water.buoyancy(added_mass=0.0), water.drag()]
+    rope = lariat.Cable([[0, 1, 0], [0, -3, 0]], section, elements=40, fix="start", effects=effects)
+    rope.equilibrium()
+    force = np.abs(rope.reactions()[0].force)
+    assert force[1] == pytest.approx(9.81 * (0.5 * 4 - 1000.0 * math.pi * 1e-4 * 3), rel=2e-3)
+    assert force[0] == pytest.approx(0.5 * 1000.0 * 1.2 * 0.02 * 0.05**2 * 3, rel=0.02)
+    wave = lariat.Water(1025.0, level=2.0, wave=lariat.Wave(0.5, 8.0))
+    surface = wave.drag(gravity=[0, 0, -9.81]).flow.surface
+    assert surface is not None and wave.buoyancy(gravity=[0, 0, -9.81]).surface == surface
+    assert surface["up"] == [0, 0, 1] and surface["level"] == 2.0 and surface["wave"]["period"] == 8.0
+    assert lariat.Water(level=None).buoyancy().surface is None
+    with pytest.raises(ValueError, match="free surface"):
+        lariat.Water(level=None, wave=lariat.Wave(0.5, 8.0)).drag()

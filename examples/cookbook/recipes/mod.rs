@@ -1,17 +1,25 @@
 //! The recipes of docs/cookbook.md, a file each. The page shows every file up to its `impl Stage`.
 
 mod bridge;
+mod corner;
 mod crane;
 mod cut;
+mod edge;
+mod flag;
 mod grapple;
 mod hook;
 mod lamp;
+mod lamps;
+mod leash;
 mod mooring;
 mod net;
 mod pulley;
+mod save;
 mod seabed;
+mod teleport;
 mod tow_rope;
 mod walked_bridge;
+mod zip_line;
 
 use std::error::Error;
 
@@ -59,7 +67,7 @@ macro_rules! recipe {
 }
 
 /// All recipes, in the order of the page.
-pub const ALL: [Recipe; 12] = [
+pub const ALL: [Recipe; 20] = [
     recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
@@ -72,6 +80,14 @@ pub const ALL: [Recipe; 12] = [
     recipe!(net, Net, "40 x 4", 1, "game", 360),
     recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600),
     recipe!(seabed, Seabed, "1 x 52", 0, "game", 1200),
+    recipe!(corner, Corner, "1 x 16", 1, "game", 180),
+    recipe!(edge, Edge, "1 x 40", 1, "game", 420),
+    recipe!(zip_line, ZipLine, "2 x 10", 1, "game", 240),
+    recipe!(flag, Flag, "2 x 7", 1, "game", 1200),
+    recipe!(lamps, Lamps, "12 x 4", 12, "game", 2400),
+    recipe!(leash, Leash, "1 x 10", 1, "game", 900),
+    recipe!(teleport, Teleport, "1 x 10", 2, "game", 120),
+    recipe!(save, Save, "1 x 10", 1, "game", 300),
 ];
 
 impl Recipe {

@@ -76,6 +76,18 @@ class Section:
     def wire_rope(diameter: float) -> Section:
         """A steel wire rope, 6x36WS with an independent wire rope core, of this nominal diameter in m. Raises InvalidValueError."""
 
+    @staticmethod
+    def rope(material: str, diameter: float) -> Section:
+        """A rope or chain of this nominal diameter in m, that of a chain of its bar, as catalogues have them: ``"nylon"``, ``"polyester"``,
+        ``"hmpe"``, ``"wire_rope"`` or ``"chain"``. Catalogues have force over elongation: add ``AxialLaw("hooke")``.
+
+        Raises BuilderError for another material, InvalidValueError for a diameter that is not positive and at most 0.35 m.
+        """
+
+    @staticmethod
+    def breaking_load(material: str, diameter: float) -> float:
+        """The breaking load in N of such a rope or chain, for ``set_strength``. Raises as ``rope``."""
+
     @property
     def axial_stiffness(self) -> float:
         """EA in N."""
@@ -841,6 +853,7 @@ class Recorded:
     def page(self) -> str: ...
     def svg(self) -> str: ...
     def usd(self) -> str: ...
+    def state(self) -> str: ...
 
 @final
 class Stop:
@@ -870,6 +883,7 @@ def run_scene(
     *,
     statics: bool = False,
     error: float | str | None = None,
+    start: tuple[str, str] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[dict[str, Any], Mapping[str, tuple[list[str], Array]], Any, Recorded]: ...
 def sweep_check(file: str, text: str, points: list[list[str]]) -> None: ...

@@ -406,6 +406,10 @@ class BusyError(Error):
     """A folder that another program writes results to."""
 
 
+class StateError(Error, ValueError):
+    """A state that a run cannot start from: damaged, of another version, or of another scene."""
+
+
 class ReadError(Error, OSError):
     """A scene that cannot be read."""
 

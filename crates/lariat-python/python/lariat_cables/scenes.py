@@ -98,10 +98,10 @@ class Probe:
 
 
 class _Written:
-    """The page, the picture and the motion of a run that was pickled."""
+    """The page, the picture, the motion and the state of a run that was pickled."""
 
-    def __init__(self, page: str, svg: str, usd: str) -> None:
-        self._page, self._svg, self._usd = page, svg, usd
+    def __init__(self, page: str, svg: str, usd: str, state: str) -> None:
+        self._page, self._svg, self._usd, self._state = page, svg, usd, state
 
     def page(self) -> str:
         return self._page
@@ -111,6 +111,9 @@ class _Written:
 
     def usd(self) -> str:
         return self._usd
+
+    def state(self) -> str:
+        return self._state
 
 
 class Run:
@@ -122,9 +125,11 @@ class Run:
         self.probes = probes
         """Samples by the name of the probe."""
         self._recorded = recorded
+        self._rests = False
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_recorded": _Written(self.page(), self.svg(), self.usd())}
+        state = self._recorded.state() if self._rests else ""
+        return {**self.__dict__, "_recorded": _Written(self.page(), self.svg(), self.usd(), state)}
 
     @property
     def t(self) -> Array:
@@ -141,7 +146,8 @@ class Run:
         return self._recorded.page()
 
     def save(self, folder: str | PathLike[str]) -> None:
-        """Writes the files of ``lariat run``: probes/NAME.csv, summary.json and view.html, the page, in place of those of the last run.
+        """Writes the files of ``lariat run``: probes/NAME.csv, summary.json and view.html, the page, in place of those of the last run; of
+        ``statics`` also state, from which ``run(start=folder)`` and ``lariat run --from`` start.
 
         Raises ``InTheWayError`` for a file that Lariat did not write, or that was changed since, and ``BusyError`` while another
         program writes there.
@@ -150,6 +156,8 @@ class Run:
         for name, probe in self.probes.items():
             rows = [",".join(probe.columns), *(",".join(repr(float(x)) for x in row) for row in probe.rows)]
             files.append((f"probes/{name}.csv", "\n".join(rows) + "\n"))
+        if self._rests:
+            files.append(("state", self._recorded.state()))
         _lariat.save_files(folder, files)
 
     def svg(self) -> str:
@@ -200,13 +208,35 @@ class _Bar:
             self._bar.close()
 
 
-def _collect(scene: SceneLike, settings: Mapping[str, Any] | None, statics: bool, progress: bool, error: float | str | None) -> Run:
+def _state(start: Run | str | PathLike[str]) -> tuple[str, str]:
+    """Returns the text of a state, and where it comes from."""
+    if isinstance(start, Run):
+        if not start._rests:
+            raise ValueError("start: a run of lariat.statics, or a folder with its state, not a run in time")
+        return start._recorded.state(), "start"
+    file = Path(fspath(start)) / "state"
+    try:
+        return file.read_text(encoding="utf-8"), str(file)
+    except (OSError, ValueError) as error:
+        raise ReadError(f"cannot read {file}: {error}") from error
+
+
+def _collect(
+    scene: SceneLike,
+    settings: Mapping[str, Any] | None,
+    statics: bool,
+    progress: bool,
+    error: float | str | None,
+    start: Run | str | PathLike[str] | None = None,
+) -> Run:
     name, text = source(scene)
     given = overrides(settings)
+    state = None if start is None else _state(start)
     total = _duration(text, settings)
     with _Bar(progress and total is not None, total or 0.0, "s") as bar:
-        summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, error=error, progress=bar)
+        summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, error=error, start=state, progress=bar)
     run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
+    run._rests = statics and failed is None
     for line in run.warnings:
         # the caller of run or statics
         warnings.warn(line, ResultWarning, stacklevel=3)
@@ -237,6 +267,7 @@ def run(
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
     error: float | str | None = None,
+    start: Run | str | PathLike[str] | None = None,
     progress: bool = True,
 ) -> Run:
     """Runs a scene for its duration.
@@ -245,14 +276,18 @@ def run(
     ``summary["error"]`` has the claim, its parts and ``outcome``, which is ``"proven"`` or says why not. A text asks for tensions or moments:
     ``"tension=1%"``, ``"tension=50N"``, ``"moment=5%"``, ``"moment=2Nm"``, at ends, held and loaded points and the largest of each cable.
 
+    ``start`` is the equilibrium that the run begins in, bit for bit: what ``statics`` of the same scene returned, or a folder that
+    it, or ``lariat static``, was saved to. Duration, ``dt``, probes and name may differ; all else that does is refused by its name.
+    It does not go together with ``error``.
+
     ``set`` overrides keys, as ``{"cable.sling.elements": 20}``. Progress is shown by tqdm if it is installed and the run takes longer than a second.
 
     What a run tells of itself, a line for each kind, goes through Python's ``warnings`` as ``errors.ResultWarning``.
 
-    Raises ``SceneError`` for a scene that is not accepted, and the error of the mechanics for a run that fails; its attribute ``run``
-    then has the samples until there.
+    Raises ``SceneError`` for a scene that is not accepted, ``StateError`` and ``ReadError`` for a ``start`` that is not its state, and the
+    error of the mechanics for a run that fails; its attribute ``run`` then has the samples until there.
     """
-    return _collect(scene, set, False, progress, error)
+    return _collect(scene, set, False, progress, error, start)
 
 
 def statics(

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lariat_cables._lariat import CoSimulation
 from lariat_cables.errors import ResultWarning
 from lariat_cables.exchange import EndMotion, Exchange, Exchanged
+from lariat_cables.water import GRAVITY
 
 Array = NDArray[np.float64]
 
@@ -28,14 +29,17 @@ class MujocoExchange:
     attached, each by its centre of mass (``data.xipos`` and ``data.xquat``, see ``attach``)."""
 
     def __init__(self, model: Any, data: Any, cable: Any, ends: Sequence[tuple[Any, int | str]], *, clamp: bool = False) -> None:
-        """Attaches the points of a cable to bodies, ``[("end", "crate")]``, where both are now. Raises what ``CoSimulation.attach`` raises, and
-        KeyError for a body that is not there."""
+        """Attaches the points of a cable to bodies, ``[("end", "crate")]``, where both are now. A cable whose gravity is the default,
+        (0, -9.81, 0), takes that of the model, whose z axis is up by default. Raises what ``CoSimulation.attach`` raises, and KeyError
+        for a body that is not there."""
         import mujoco  # type: ignore[import-untyped, unused-ignore]
 
         self._mujoco = mujoco
         self.model, self.data = model, data
         self.bodies = [model.body(body).id for _, body in ends]
         mujoco.mj_forward(model, data)
+        if np.array_equal(cable.gravity, GRAVITY):
+            cable.gravity = model.opt.gravity
         self.exchange = Exchange(CoSimulation(cable))
         for (at, _), body in zip(ends, self.bodies, strict=True):
             self.exchange.coupling.attach(at, data.xipos[body], _xyzw(data.xquat[body]), clamp=clamp)

@@ -6,7 +6,8 @@ use crate::scales::statics::TOUCH;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{BoundingVolume, Collider};
 use rapier::math::{Pose, Real};
-use rapier::parry::query::{Contact, contact};
+use rapier::parry::query::contact;
+use rapier::parry::shape::Shape;
 use rapier::pipeline::PhysicsWorld;
 
 /// Rejects moved bodies that touch another, where they were or where they are to be.
@@ -33,16 +34,19 @@ pub(super) fn check_contacts(world: &PhysicsWorld, poses: &[(RigidBodyHandle, Po
             }
             for (at, to) in [(before(a), before(b)), (after(a), after(b))] {
                 let near = a.shape().compute_aabb(&at).loosened(TOUCH as Real);
-                // pairs of shapes that parry does not compare cannot collide in Rapier either
-                let touch = |found: Contact| found.dist <= TOUCH as Real; // parry gives one of a half-space at any distance
-                if near.intersects(&b.shape().compute_aabb(&to))
-                    && contact(&at, a.shape(), &to, b.shape(), TOUCH as Real)
-                        .is_ok_and(|found| found.is_some_and(touch))
-                {
+                if near.intersects(&b.shape().compute_aabb(&to)) && touch((&at, a.shape()), (&to, b.shape())) {
                     return Err(Error::ContactInStatics { body: handle, other: b.parent() });
                 }
             }
         }
     }
     Ok(())
+}
+
+/// Returns whether two shapes are within [`TOUCH`] of each other. Pairs that parry does not compare
+/// cannot collide in Rapier either. A half-space is asked first: parry 0.31 takes the pose of a
+/// second one for its inverse, and so finds it at a wrong distance.
+fn touch(first: (&Pose, &dyn Shape), second: (&Pose, &dyn Shape)) -> bool {
+    let (first, second) = if second.1.as_halfspace().is_some() { (second, first) } else { (first, second) };
+    contact(first.0, first.1, second.0, second.1, TOUCH as Real).is_ok_and(|found| found.is_some())
 }

@@ -1,6 +1,7 @@
 //! Statics of cables and bodies under twist, in water, and in contact, and the runs that start from them.
 
 mod centre;
+mod half_space;
 mod torsion;
 mod touching;
 mod water;

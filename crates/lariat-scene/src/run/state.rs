@@ -19,7 +19,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use std::path::Path;
 
-/// The state of a world that is at rest, as [`statics`](super::statics) writes it to `DIR/state`.
+/// The state of a world that is at rest, as [`statics`](super::statics) writes it to `DIR/state`; also [of](State::of)
+/// [`Recording::world`](super::Recording::world) of [`collect`](super::collect).
 #[derive(Clone, Debug)]
 pub struct State {
     head: Head,
@@ -72,8 +73,15 @@ impl State {
     /// [`Error::Read`]; [`Error::State`] for a file that is damaged, or of another version of the program.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(STATE);
-        let text = read_text(&path)?;
-        let wrong = |problem: &str| Error::State { problem: format!("{}: {problem}", path.display()) };
+        Self::parse(&read_text(&path)?, &path.display().to_string())
+    }
+
+    /// Reads a state from its [text](Self::to_text); `source` names it in errors.
+    ///
+    /// # Errors
+    /// [`Error::State`] as [`read`](Self::read).
+    pub fn parse(text: &str, source: &str) -> Result<Self, Error> {
+        let wrong = |problem: &str| Error::State { problem: format!("{source}: {problem}") };
         let (head, body) = text.split_once('\n').ok_or_else(|| wrong("it is no state that `lariat static` wrote"))?;
         let head: Head = serde_json::from_str(head).map_err(|_| wrong("it is no state that `lariat static` wrote"))?;
         if head.lariat != env!("CARGO_PKG_VERSION") {
@@ -86,8 +94,8 @@ impl State {
         Ok(State { body: body.to_string(), head })
     }
 
-    /// Returns the file.
-    pub(super) fn to_text(&self) -> String {
+    /// Returns the text of the file.
+    pub fn to_text(&self) -> String {
         serde_json::to_string(&self.head).unwrap_or_default() + "\n" + &self.body
     }
 
