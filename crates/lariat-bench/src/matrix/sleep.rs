@@ -71,14 +71,11 @@ fn draft(feature: Feature) -> Draft {
         let damping = draft.effects.damping.take();
         draft.effects = Effects { damping, ..Effects::default() };
     }
-    // a weight that turns on its rope rests soonest if its damping is critical; of a stranded rope it is that
-    // if elongation is damped by the same time
-    let Effects { torsion, damping, .. } = &mut draft.effects;
-    if let (Some(torsion), Some(damping)) = (torsion, damping) {
-        torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt();
-        if torsion.torque_per_tension != 0.0 {
-            damping.axial = torsion.damping;
-        }
+    // a weight that turns on its rope rests soonest if its damping is critical; of that of a stranded rope the
+    // share GJ/(GJ + k^2 EA) acts
+    if let Some(torsion) = &mut draft.effects.torsion {
+        let lay = torsion.torque_per_tension.powi(2) * Draft::section().axial_stiffness / torsion.stiffness;
+        torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt() * (1.0 + lay);
         // a quarter of a turn from where it rests under the weight: it has 6 s
         let unlaid = torsion.torque_per_tension * MASS * 9.81 * LENGTH / torsion.stiffness;
         torsion.initial_twist = 0.25 - unlaid / std::f64::consts::TAU;
