@@ -72,10 +72,11 @@ fn draft(feature: Feature) -> Draft {
         draft.effects = Effects { damping, ..Effects::default() };
     }
     // a weight that turns on its rope rests soonest if its damping is critical; of that of a stranded rope the
-    // share GJ/(GJ + k^2 EA) acts
+    // share GJ/(GJ + k^2 EA) acts, so its GJ is ten times the rest
     if let Some(torsion) = &mut draft.effects.torsion {
-        let lay = torsion.torque_per_tension.powi(2) * Draft::section().axial_stiffness / torsion.stiffness;
-        torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt() * (1.0 + lay);
+        let lay = torsion.torque_per_tension.powi(2) * Draft::section().axial_stiffness;
+        torsion.stiffness = torsion.stiffness.max(10.0 * lay);
+        torsion.damping = 2.0 * (INERTIA * LENGTH / torsion.stiffness).sqrt();
         // a quarter of a turn from where it rests under the weight: it has 6 s
         let unlaid = torsion.torque_per_tension * MASS * 9.81 * LENGTH / torsion.stiffness;
         torsion.initial_twist = 0.25 - unlaid / std::f64::consts::TAU;
