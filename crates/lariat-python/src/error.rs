@@ -22,6 +22,8 @@ pub enum Field {
     Texts(Vec<String>),
     /// A vector.
     Vector([f64; 3]),
+    /// Yes or no.
+    Flag(bool),
 }
 
 macro_rules! field_from {
@@ -37,6 +39,7 @@ macro_rules! field_from {
 field_from! {
     f64 => Field::Number;
     usize => Field::Count;
+    bool => Field::Flag;
     u32 => |x| Field::Count(x as usize);
     String => Field::Text;
     &str => |x: &str| Field::Text(x.to_string());
@@ -92,6 +95,7 @@ impl Raise {
                 Field::Text(x) => fields.set_item(name, x)?,
                 Field::Texts(x) => fields.set_item(name, x)?,
                 Field::Vector(x) => fields.set_item(name, x)?,
+                Field::Flag(x) => fields.set_item(name, x)?,
             }
         }
         class.call((self.message.as_str(),), Some(&fields))
@@ -200,8 +204,8 @@ impl From<lariat_rapier::Error> for Raise {
             JointInStatics { body: debug }
             ContactInStatics { body: debug }
             MovesInStatics { way }
-            CablesPassInStatics { cable, other, arc_length }
-            CablePassesBodyInStatics { cable, body: debug, arc_length }
+            CablesPassInStatics { cable, other, arc_length, by_motion }
+            CablePassesBodyInStatics { cable, body: debug, arc_length, by_motion }
             CableTouchesInStatics { cable, collider: debug, arc_length, depth }
             BodyNotFinite { body: debug, time }
         );

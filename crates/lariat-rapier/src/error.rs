@@ -190,9 +190,14 @@ pub enum Error {
     /// Cables that touch each other, and would be found on the other side of each other: statics
     /// compute no contact between them.
     #[error(
-        "cable {cable:?} would pass through {}, near {arc_length:.4} m, from where it was drawn to where it would rest: statics compute no contact of \
-         cables with each other: draw it on the other side, or step until it rests",
-        if .cable == .other { "itself".to_string() } else { format!("cable {other:?}") }
+        "cable {cable:?} would pass through {}, near {arc_length:.4} m, from where it was drawn to where it would rest: {}",
+        if .cable == .other { "itself".to_string() } else { format!("cable {other:?}") },
+        if *.by_motion {
+            "in motion from there, too: their contact is too soft for what it carries: give it a stiffness, or draw it on the other side"
+        } else {
+            "statics compute no contact of cables with each other, and in 30 s of motion not all comes to rest: draw it on the other side, or step until \
+             it rests"
+        }
     )]
     CablesPassInStatics {
         /// Name of the cable.
@@ -201,12 +206,14 @@ pub enum Error {
         other: String,
         /// Arc length of the first in m.
         arc_length: f64,
+        /// Whether it came to rest there by its motion.
+        by_motion: bool,
     },
     /// A cable with contact that would be found in a body which cables move, or on its other side:
     /// statics compute no contact between them.
     #[error(
-        "cable {cable:?} would be in body {body:?} or pass through it, near {arc_length:.4} m, from where it was drawn to where it would rest: statics \
-         compute no contact of cables with bodies that they move: step until it rests"
+        "cable {cable:?} would be in body {body:?} or pass through it, near {arc_length:.4} m, from where it was drawn to where it would rest: {}",
+        beyond_body(*.by_motion)
     )]
     CablePassesBodyInStatics {
         /// Name of the cable.
@@ -215,6 +222,8 @@ pub enum Error {
         body: RigidBodyHandle,
         /// Arc length in m.
         arc_length: f64,
+        /// Whether it came to rest there by its motion.
+        by_motion: bool,
     },
     /// A body whose state is not finite.
     #[error("body {body:?} has a {quantity} that is not finite at t = {time} s")]
@@ -226,6 +235,27 @@ pub enum Error {
         /// Time in s.
         time: f64,
     },
+}
+
+/// Says why a cable would be in a body that cables move, or beyond it, and what to do.
+fn beyond_body(by_motion: bool) -> &'static str {
+    if by_motion {
+        "in motion from there, too: use more elements where it bends around the body, or a stiffness of contact"
+    } else {
+        "statics compute no contact of cables with bodies that they move, and in 30 s of motion not all comes to rest: step until it rests"
+    }
+}
+
+impl Error {
+    /// Returns the error of a shape beyond what is touched as that of one that was found by motion.
+    pub(crate) fn by_motion(mut self) -> Self {
+        if let Error::CablesPassInStatics { by_motion, .. } | Error::CablePassesBodyInStatics { by_motion, .. } =
+            &mut self
+        {
+            *by_motion = true;
+        }
+        self
+    }
 }
 
 fn name_of(body: &Option<RigidBodyHandle>) -> String {

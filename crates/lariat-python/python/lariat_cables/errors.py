@@ -326,12 +326,13 @@ class MovesInStaticsError(Error):
 
 
 class CablesPassInStaticsError(Error):
-    """Cables that would be found beyond each other, in a world that comes to no rest by its motion: cable, other, arc_length."""
+    """Cables that would be found beyond each other, in a world that comes to no rest by its motion, or there too: cable, other, arc_length,
+    by_motion."""
 
 
 class CablePassesBodyInStaticsError(Error):
-    """A cable that would be found in a body that cables move, or beyond it, in a world that comes to no rest by its motion: cable, body,
-    arc_length."""
+    """A cable that would be found in a body that cables move, or beyond it, in a world that comes to no rest by its motion, or there too:
+    cable, body, arc_length, by_motion."""
 
 
 class CableTouchesInStaticsError(Error):

@@ -99,7 +99,7 @@ pub(crate) fn equilibrium(
         }
         found => return found,
     };
-    let relaxed = relaxation::relax(contents, world, (forces, drawn)).ok_or(reason)?;
+    let relaxed = relaxation::relax(contents, (finder, world), (forces, drawn))?.ok_or(reason)?;
     read_forces(contents, world);
     Ok(Equilibrium::by_motion(contents, world, relaxed))
 }

@@ -91,6 +91,7 @@ fn crossed(one: &Moved<'_>, other: &Moved<'_>, chord: usize) -> Error {
         cable: one.found.name().to_string(),
         other: other.found.name().to_string(),
         arc_length: one.arc_length(chord),
+        by_motion: false,
     }
 }
 
@@ -141,6 +142,7 @@ fn check_body(
                 cable: own.found.name().to_string(),
                 body: handle,
                 arc_length,
+                by_motion: false,
             });
         }
     }

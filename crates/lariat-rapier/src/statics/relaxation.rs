@@ -4,24 +4,31 @@
 //! # Equation
 //!
 //! Dynamic relaxation with kinetic damping. All starts at rest, as it was drawn, and moves under
-//! what acts on it at the end of its ramps; past a peak of the kinetic energy all velocities become
+//! what acts on it at the end of its ramps; at a peak of the kinetic energy all velocities become
 //! zero, but not sooner than a quarter, a half or a whole second after the last time, in turn: at
 //! each peak of what vibrates fast, what moves slowly would hardly begin. It rests when no point
 //! moves by more than a share of the largest extent in a time from rest.
+//!
+//! It must be a peak: a vibration that is stopped where it turns keeps its amplitude, and each stop
+//! begins it anew in the same phase.
 //!
 //! # Validity
 //!
 //! With friction, as in motion: where it comes to rest depends on how it was drawn. Nothing that
 //! acts or holds may change with time. All dynamic bodies come to rest, those without a cable, too.
+//! What passes something on its way has to rest on the side on which it was drawn.
 //!
 //! # References
 //!
 //! Barnes 1999; Day 1965.
 
+use super::passed::{Moved, check_passed};
 use super::report::Relaxed;
 use super::solve::BodyForce;
+use super::start;
 use crate::body::is_integrated;
 use crate::body::ledger::is_ledger;
+use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::convert::{to_vector, vector};
 use crate::error::Error;
@@ -46,17 +53,27 @@ struct Relaxation {
 }
 
 /// Moves a set and its world to where they come to rest from how cables were `drawn`; returns
-/// `None` and leaves both as they are if they do not, if something changes with time, or if cables
-/// pass through each other on that way.
+/// `None` and leaves both as they are if they do not, or if something changes with time.
+///
+/// # Errors
+/// [`Error::CablesPassInStatics`], [`Error::CablePassesBodyInStatics`] if they rest beyond what
+/// they touch.
 pub(super) fn relax(
     contents: &mut Contents,
-    world: &mut PhysicsWorld,
+    (finder, world): (&Finder, &mut PhysicsWorld),
     (forces, drawn): (&[BodyForce], &[(CableHandle, Cable)]),
-) -> Option<Relaxed> {
-    let mut relaxation = Relaxation::new(contents, world, drawn)?;
-    let relaxed = relaxation.run(forces)?;
+) -> Result<Option<Relaxed>, Error> {
+    let Some(mut relaxation) = Relaxation::new(contents, world, drawn) else { return Ok(None) };
+    let Some(relaxed) = relaxation.run(forces) else { return Ok(None) };
+    if relaxation.passed_something() {
+        if world.colliders.iter().any(|(_, collider)| collider.parent().is_none()) {
+            // nothing is known of its sides
+            return Ok(None);
+        }
+        relaxation.check_sides(contents, (finder, world), drawn)?;
+    }
     relaxation.take_over(contents, world);
-    Some(relaxed)
+    Ok(Some(relaxed))
 }
 
 /// Returns whether cables touch what statics do not compute: themselves, each other, or bodies that
@@ -118,7 +135,8 @@ impl Relaxation {
 
     fn run(&mut self, forces: &[BodyForce]) -> Option<Relaxed> {
         let limit = self.limit();
-        let (mut last, mut since, mut windows, mut way, mut from) = (0.0, 0, 0, 0.0f64, self.places());
+        let (mut since, mut windows, mut way, mut from) = (0, 0, 0.0f64, self.places());
+        let (mut before, mut last) = (0.0, 0.0);
         for host_steps in 1..=RELAXATION_STEPS {
             if !self.is_steady() {
                 break;
@@ -127,17 +145,36 @@ impl Relaxation {
             since += 1;
             way = way.max(largest_way(&from, &self.places()));
             if since >= STILL_STEPS && way < limit {
-                let crossed = self.contents.cables.iter().any(|(_, slot)| slot.cable.diagnostics().crossed_steps > 0);
-                return (!crossed).then_some(Relaxed { host_steps, way });
+                return Some(Relaxed { host_steps, way });
             }
             let kinetic = self.kinetic_energy();
-            if since >= WINDOWS[windows % WINDOWS.len()] && kinetic < last {
+            if since >= WINDOWS[windows % WINDOWS.len()] && last >= before && kinetic < last {
                 self.stop();
                 (windows, since, way, from) = (windows + 1, 0, 0.0, self.places());
             }
-            last = kinetic;
+            (before, last) = (last, kinetic);
         }
         None
+    }
+
+    /// Returns whether something went through something else on the way.
+    fn passed_something(&self) -> bool {
+        self.contents.cables.iter().any(|(_, slot)| slot.cable.diagnostics().crossed_steps > 0)
+    }
+
+    /// Refuses shapes beyond what cables touch, seen from how they were `drawn` in a world.
+    fn check_sides(
+        &self,
+        contents: &Contents,
+        (finder, world): (&Finder, &PhysicsWorld),
+        drawn: &[(CableHandle, Cable)],
+    ) -> Result<(), Error> {
+        let found = self.contents.cables.iter();
+        let moved =
+            found.filter_map(|(index, slot)| Some(Moved::new(index, start(contents, drawn, index)?, &slot.cable)));
+        let bodies = self.world.bodies.iter().filter(|(_, body)| !is_ledger(body));
+        let poses: Vec<_> = bodies.map(|(handle, body)| (handle, *body.position())).collect();
+        check_passed(contents, finder, world, moved.collect(), &poses).map_err(Error::by_motion)
     }
 
     fn step(&mut self, forces: &[BodyForce]) -> Result<(), Error> {

@@ -37,10 +37,14 @@ impl Physics {
                 );
                 Error::Body { time, body, problem }
             }
-            lariat_rapier::Error::CablePassesBodyInStatics { cable, body, arc_length } => {
+            lariat_rapier::Error::CablePassesBodyInStatics { cable, body, arc_length, by_motion } => {
+                let why = if by_motion {
+                    "in motion from there, too: use more elements where it bends around the body, or a stiffness of contact"
+                } else {
+                    "statics compute no contact of cables with bodies that they move, and in 30 s of motion not all comes to rest: run the scene until it rests"
+                };
                 let problem = format!(
-                    "cable {cable:?} would be in it or pass through it, near {arc_length:.4} m, from where it is drawn to where it would rest: \
-                     statics compute no contact of cables with bodies that they move: run the scene until it rests"
+                    "cable {cable:?} would be in it or pass through it, near {arc_length:.4} m, from where it is drawn to where it would rest: {why}"
                 );
                 Error::Body { time, body: name(body).unwrap_or_default(), problem }
             }
