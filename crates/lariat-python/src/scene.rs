@@ -158,10 +158,10 @@ pub fn run_scene<'py>(
     overrides: Vec<String>,
     statics: bool,
     error: Option<AskedError>,
-    start: Option<(&str, &str)>,
+    start: Option<(String, String)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Run<'py>> {
-    let purpose = match (statics, start) {
+    let purpose = match (statics, &start) {
         (true, _) => Purpose::Static,
         (false, Some(_)) => Purpose::Resume,
         (false, None) => Purpose::Run,
@@ -171,14 +171,18 @@ pub fn run_scene<'py>(
     let mut teller = Teller::new(progress);
     let recording = py.detach(|| {
         let scene = Scene::parse(file, text, &overrides, purpose)?;
-        let from = start.map(|(text, source)| State::parse(text, source)).transpose()?;
+        let from = start.as_ref().map(|(text, source)| State::parse(text, source)).transpose()?;
         let flag = Arc::clone(&stop);
         let mut report = |time: f64| {
             if !teller.tell(time) {
                 flag.store(true, Ordering::Relaxed);
             }
         };
-        run::collect(&scene, purpose, &mut Options { stop, progress: Some(&mut report), error, from, ..Options::default() })
+        run::collect(
+            &scene,
+            purpose,
+            &mut Options { stop, progress: Some(&mut report), error, from, ..Options::default() },
+        )
     });
     if let Some(error) = teller.failed {
         return Err(error);

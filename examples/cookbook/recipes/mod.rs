@@ -16,7 +16,6 @@ mod net;
 mod pulley;
 mod save;
 mod seabed;
-mod teleport;
 mod tow_rope;
 mod walked_bridge;
 mod zip_line;
@@ -67,7 +66,7 @@ macro_rules! recipe {
 }
 
 /// All recipes, in the order of the page.
-pub const ALL: [Recipe; 20] = [
+pub const ALL: [Recipe; 19] = [
     recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
@@ -86,7 +85,6 @@ pub const ALL: [Recipe; 20] = [
     recipe!(flag, Flag, "2 x 7", 1, "game", 1200),
     recipe!(lamps, Lamps, "12 x 4", 12, "game", 2400),
     recipe!(leash, Leash, "1 x 10", 1, "game", 900),
-    recipe!(teleport, Teleport, "1 x 10", 2, "game", 120),
     recipe!(save, Save, "1 x 10", 1, "game", 300),
 ];
 
