@@ -78,7 +78,7 @@ fn over_beam(above: f64, at: f64, half: f64, contact: &str) -> String {
     let y = -1.0 - half + above;
     format!(
         "[[body]]\nname = \"beam\"\nshape = {{ cuboid = [1.0, {half}, 0.3] }}\nmass = 40.0\nposition = [0.0, {}, 0.0]\n{}{}[[cable]]\nname = \"lies\"\n\
-         points = [[{at}, {y}, -0.6], [{at}, {y}, 0.6]]\nelements = 20\naxial_stiffness = 20.0\nbending_stiffness = 0.01\nmass_per_length = 0.5\n{contact}{}",
+         points = [[{at}, {y}, -0.6], [{at}, {y}, 0.6]]\nelements = 40\naxial_stiffness = 20.0\nbending_stiffness = 0.01\nmass_per_length = 0.5\n{contact}{}",
         -1.0 - half,
         hanger("a", -0.9),
         hanger("b", 0.9),
