@@ -56,12 +56,6 @@ pub(crate) fn among(finder: &mut Finder, world: &PhysicsWorld, cable: &mut Cable
     cable.equilibrium().map_err(name_collider)
 }
 
-/// Returns a cable as it was drawn, which is as it is now if nothing else is known.
-fn start<'a>(contents: &'a Contents, drawn: &'a [(CableHandle, Cable)], index: usize) -> Option<&'a Cable> {
-    let known = drawn.iter().find(|(cable, _)| cable.0 as usize == index).map(|(_, cable)| cable);
-    known.or_else(|| contents.cables.get(index).map(|slot| &slot.cable))
-}
-
 /// Refuses cables of a set that are beyond what they touch, seen from how they were drawn.
 pub(crate) fn check_drawn(
     contents: &Contents,
@@ -70,7 +64,7 @@ pub(crate) fn check_drawn(
     drawn: &[(CableHandle, Cable)],
 ) -> Result<(), Error> {
     let cables = contents.cables.iter();
-    let moved = cables.filter_map(|(index, slot)| Some(Moved::new(index, start(contents, drawn, index)?, &slot.cable)));
+    let moved = cables.filter_map(|(index, slot)| Moved::of(contents, drawn, (index, &slot.cable)));
     check_passed(contents, finder, world, moved.collect(), &[])
 }
 
@@ -130,7 +124,7 @@ fn search(
     let poses: Vec<(RigidBodyHandle, Pose)> = solved.iter().flat_map(|s| poses(world, s)).collect();
     check_contacts(world, &poses)?;
     let found = solved.iter().flat_map(|s| s.island.cables.iter().zip(&s.cables));
-    let moved = found.filter_map(|(&index, found)| Some(Moved::new(index, start(contents, drawn, index)?, found)));
+    let moved = found.filter_map(|(&index, found)| Moved::of(contents, drawn, (index, found)));
     check_passed(contents, finder, world, moved.collect(), &poses)?;
     out.held = report::held(contents, world);
     let loose = world.bodies.iter().filter(|(h, b)| is_integrated(world, *h) && !is_ledger(b) && !moving.contains(h));

@@ -40,7 +40,19 @@ pub(crate) struct Moved<'a> {
 }
 
 impl<'a> Moved<'a> {
-    pub fn new(index: usize, drawn: &'a Cable, found: &'a Cable) -> Self {
+    /// Returns a cable that was found by its index, from how it was `drawn`, which is as it is now
+    /// if nothing else is known.
+    pub fn of(
+        contents: &'a Contents,
+        drawn: &'a [(CableHandle, Cable)],
+        (index, found): (usize, &'a Cable),
+    ) -> Option<Self> {
+        let known = drawn.iter().find(|(cable, _)| cable.0 as usize == index).map(|(_, cable)| cable);
+        let start = known.or_else(|| contents.cables.get(index).map(|slot| &slot.cable))?;
+        Some(Moved::new(index, start, found))
+    }
+
+    fn new(index: usize, drawn: &'a Cable, found: &'a Cable) -> Self {
         let chords = POINTS * drawn.elements().len().max(found.elements().len());
         // material runs over sheaves: particles are then those at the same share of the length
         let points = |cable: &Cable| {

@@ -25,7 +25,6 @@
 use super::passed::{Moved, check_passed};
 use super::report::Relaxed;
 use super::solve::BodyForce;
-use super::start;
 use crate::body::is_integrated;
 use crate::body::ledger::is_ledger;
 use crate::contact::broad::Finder;
@@ -170,8 +169,7 @@ impl Relaxation {
         drawn: &[(CableHandle, Cable)],
     ) -> Result<(), Error> {
         let found = self.contents.cables.iter();
-        let moved =
-            found.filter_map(|(index, slot)| Some(Moved::new(index, start(contents, drawn, index)?, &slot.cable)));
+        let moved = found.filter_map(|(index, slot)| Moved::of(contents, drawn, (index, &slot.cable)));
         let bodies = self.world.bodies.iter().filter(|(_, body)| !is_ledger(body));
         let poses: Vec<_> = bodies.map(|(handle, body)| (handle, *body.position())).collect();
         check_passed(contents, finder, world, moved.collect(), &poses).map_err(Error::by_motion)
