@@ -111,9 +111,7 @@ impl ContactStep {
 
     /// Closes offsets, at a cost of at most `budget` (J).
     fn close_offsets(&mut self, budget: f64) {
-        let cost: f64 = self.points.iter().map(ContactPoint::cost).sum();
-        let share = (self.h / OFFSET_TIME).min(1.0);
-        self.closes = if share * cost > budget { budget / cost } else { share };
+        self.closes = ContactPoint::affordable_share(self.points.iter(), (self.h / OFFSET_TIME).min(1.0), budget);
         self.points.iter_mut().for_each(|point| point.close(self.closes));
     }
 

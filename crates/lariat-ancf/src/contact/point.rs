@@ -188,8 +188,15 @@ impl ContactPoint {
 
     /// Returns the energy in J that it would cost to close the offset, under the force of the last
     /// step.
-    pub fn cost(&self) -> f64 {
+    fn cost(&self) -> f64 {
         self.remembered * self.offset
+    }
+
+    /// Returns the share of offsets that contacts can close at a cost of at most `budget` (J), and
+    /// no more than `most`.
+    pub fn affordable_share<'a>(points: impl Iterator<Item = &'a Self>, most: f64, budget: f64) -> f64 {
+        let cost: f64 = points.map(ContactPoint::cost).sum();
+        if most * cost > budget { budget / cost } else { most }
     }
 
     /// Makes its offset smaller by an energy (J), which it stores.

@@ -31,7 +31,7 @@ pub(crate) struct PairStep {
     pub(super) leg: OneLeg,
     /// Energy in J that the contacts store at the beginning.
     before: f64,
-    /// Energy in J that was remembered: what is more than that is left.
+    /// Energy in J that was remembered: what of it no contact begins with is lost.
     stored: f64,
     /// Strands that go through each other in the step.
     crossed: Option<[usize; 2]>,
@@ -119,11 +119,9 @@ impl PairStep {
             |strand: &Strand<'_>| strand.memory.iter().map(|memory| memory.contact.friction_power).sum::<f64>();
         let powers = (0..strands.count).map(|c| (strands.get)(c)).map(|strand| friction(&strand) + strand.damped);
         let budget = PAID * powers.sum::<f64>() * self.h;
-        let cost: f64 = self.points.iter().map(|pair| pair.point.cost()).sum();
-        if cost > 0.0 {
-            let share = (self.h / CLOSING_TIME).min(1.0).min(budget / cost);
-            self.points.iter_mut().for_each(|pair| pair.point.close(share));
-        }
+        let points = self.points.iter().map(|pair| &pair.point);
+        let share = ContactPoint::affordable_share(points, (self.h / CLOSING_TIME).min(1.0), budget);
+        self.points.iter_mut().for_each(|pair| pair.point.close(share));
     }
 
     /// Begins the step of the contacts from one on: what does not come fast, but is pressed or
