@@ -243,10 +243,8 @@ impl Support {
     /// Overwrites the held components of nodal coordinates `q` and velocities `v` by their values
     /// at `time`.
     pub(crate) fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64]) {
-        if let SlopeSupport::Direction(_) = self.slope {
-            self.project_slope(&mut q[3..6]);
-            self.project_slope(&mut v[3..6]);
-        }
+        self.keep_direction(&mut q[3..6]);
+        self.keep_direction(&mut v[3..6]);
         if let Some(motion) = self.position {
             let [x, dx, _] = motion.at(time);
             q[..3].copy_from_slice(x.as_slice());
@@ -256,6 +254,13 @@ impl Support {
             let [x, dx, _] = motion.at(time);
             q[3..6].copy_from_slice(x.as_slice());
             v[3..6].copy_from_slice(dx.as_slice());
+        }
+    }
+
+    /// Removes what is across the direction that holds a slope, if one does, from a change of it.
+    pub(crate) fn keep_direction(&self, t: &mut [f64]) {
+        if let SlopeSupport::Direction(_) = self.slope {
+            self.project_slope(t);
         }
     }
 

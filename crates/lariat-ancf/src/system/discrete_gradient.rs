@@ -44,6 +44,13 @@ impl Equations<'_> {
         memory.valid = false;
         if memory.differences.is_empty() || memory.differences.revision != memory.revision {
             self.prescribe(state.time, &mut state.q, &mut state.v);
+            // steps begin with the last changes: what is across a clamp that was turned would stay
+            let memory = &mut state.memory.differences;
+            for changes in [&mut memory.velocity, &mut memory.displacement].into_iter().filter(|x| !x.is_empty()) {
+                for (node, support) in &self.model.supports {
+                    support.keep_direction(&mut changes[6 * node + 3..6 * node + 6]);
+                }
+            }
         }
     }
 
