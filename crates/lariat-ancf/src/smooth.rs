@@ -79,21 +79,34 @@ pub fn rate<T: Linear + PartialEq>(
 /// Returns the value at a time of the curve through ascending rows of time and value; 0 without
 /// rows.
 pub(crate) fn value(rows: &[[f64; 2]], time: f64) -> f64 {
+    match piece(rows, time) {
+        Some((value, s, [a, b, c])) => value + s * (a + s * (b + s * c)),
+        None => {
+            let outside = rows.first().filter(|row| time < row[0]).or(rows.last());
+            outside.map_or(0.0, |row| row[1])
+        }
+    }
+}
+
+/// Returns the rate of that curve at a time.
+pub(crate) fn rate_at(rows: &[[f64; 2]], time: f64) -> f64 {
+    piece(rows, time).map_or(0.0, |(_, s, [a, b, c])| a + s * (2.0 * b + s * 3.0 * c))
+}
+
+/// Returns the value at the row before a time, the time since then, and the coefficients of the
+/// cubic behind it; `None` where the value stays.
+fn piece(rows: &[[f64; 2]], time: f64) -> Option<(f64, f64, [f64; 3])> {
     let next = rows.partition_point(|row| row[0] <= time);
-    let (Some(i), Some(after)) = (next.checked_sub(1), rows.get(next)) else {
-        return rows.get(next).or(rows.last()).map_or(0.0, |row| row[1]);
-    };
+    let (i, after) = (next.checked_sub(1)?, rows.get(next)?);
     let length = |i: usize| rows[i + 1][0] - rows[i][0];
     let mean = |i: usize| (rows[i + 1][1] - rows[i][1]) / length(i);
     let rates = [i, i + 1].map(|row| rate(rows.len(), row, length, mean));
-    let (h, s) = (after[0] - rows[i][0], time - rows[i][0]);
-    let [a, b, c] = hermite(h, mean(i), rates);
-    rows[i][1] + s * (a + s * (b + s * c))
+    Some((rows[i][1], time - rows[i][0], hermite(after[0] - rows[i][0], mean(i), rates)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::value;
+    use super::{rate_at, value};
 
     /// A curve through rows of a parabola is that parabola, stays between equal rows and outside,
     /// and converges to a wave with order 3.
@@ -105,8 +118,11 @@ mod tests {
         let rows = [0.0, 0.3, 0.5, 1.4, 2.0].map(|t| [t, parabola(t)]);
         for t in [0.0, 0.1, 0.4, 0.77, 1.4, 1.9, 2.0] {
             assert!((value(&rows, t) - parabola(t)).abs() < 1e-14, "t = {t}");
+            let rate = if t < 2.0 { 6.0 * t - 1.0 } else { 0.0 };
+            assert!((rate_at(&rows, t) - rate).abs() < 1e-13, "t = {t}");
         }
         assert_eq!([-1.0, 9.0].map(|t| value(&rows, t)), [0.5, parabola(2.0)]);
+        assert_eq!([-1.0, 9.0].map(|t| rate_at(&rows, t)), [0.0; 2]);
         let rows = [[0.0, 1.0], [1.0, 1.0], [2.0, 4.0], [3.0, 4.0]];
         assert_eq!([0.3, 2.5].map(|t| value(&rows, t)), [1.0, 4.0]);
         assert_eq!([value(&[], 1.0), value(&[[2.0, 3.0]], 1.0), value(&[[2.0, 3.0]], 5.0)], [0.0, 3.0, 3.0]);

@@ -42,7 +42,8 @@ fn a_warm_cable_steps_without_allocating() {
     }
 }
 
-/// The same of a twisted cable that a motor winds up, and reads itself.
+/// The same of a twisted cable that a motor winds up, and reads itself, by the discrete gradient and
+/// by a method that evaluates forces.
 ///
 /// *Source.* The contract.
 #[test]
@@ -50,12 +51,14 @@ fn a_warm_twisted_cable_steps_without_allocating() {
     let end = EndSpin::Motor { rate: 0.2, from: 0.0, until: 10.0 };
     let torsion = Some(Torsion { initial_twist: 0.5, damping: 0.01, end, ..Torsion::new(0.05) });
     let effects = Effects { torsion, ..Effects::default() };
-    let mut cable =
-        pendulum(10).clamp(At::Start).clamp(At::End).effects(effects).fidelity(Fidelity::Game).build().unwrap();
-    cable.set_watched(true);
-    let mut run = |steps: usize| (0..steps).for_each(|_| cable.step(1.0 / 240.0).unwrap());
-    run(10);
-    assert_eq!(allocations(|| run(100)), 0);
+    for fidelity in [Fidelity::Game, Fidelity::Custom(Integrator::default())] {
+        let built = pendulum(10).clamp(At::Start).clamp(At::End).effects(effects.clone()).fidelity(fidelity).build();
+        let mut cable = built.unwrap();
+        cable.set_watched(true);
+        let mut run = |steps: usize| (0..steps).for_each(|_| cable.step(1.0 / 240.0).unwrap());
+        run(10);
+        assert_eq!(allocations(|| run(100)), 0, "{}", fidelity.name());
+    }
 }
 
 /// All effects that a step evaluates.

@@ -3,7 +3,8 @@
 use lariat_rapier::convert::vector;
 use lariat_rapier::lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{
-    At, Cable, CableBuilder, Damping, Effects, EndSpin, Integrator, Reel, Section, StepControl, Torsion, Vector3,
+    At, Cable, CableBuilder, Damping, Effects, EndSpin, Integrator, Method, Reel, Section, StepControl, Torsion,
+    Vector3,
 };
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet};
@@ -604,4 +605,24 @@ fn a_hook_on_a_stranded_rope_turns_under_its_load() {
     let (reading, _, turned, end) = run(EndSpin::Swivel, 1800);
     assert!(reading.is_none() && turned.norm() < 1e-6, "{turned:?}");
     assert!((end - at).norm() < 1e-6, "{end:?} {at:?}");
+}
+
+/// On a body no other method than the discrete gradient carries torsion, and the step says so by
+/// name; let go of the body, the cable goes on by its own.
+///
+/// *Source.* The contract.
+#[test]
+fn other_methods_carry_torsion_beside_bodies_and_not_on_them() {
+    let mut world = PhysicsWorld::new();
+    let body = disc(&mut world, 0.1, [1e-4, 1e-4], -Vector3::y(), Vector3::y());
+    let mut set = CableSet::new();
+    let esdirk = Integrator { method: Method::Esdirk4, control: StepControl::Tolerance(1e-5) };
+    let built = cable(Vector3::zeros(), -Vector3::y(), 0.05, 1.0).clamp(At::Start).integrator(esdirk);
+    let rope = set.insert(built.build().unwrap());
+    let held = set.attach(&world, rope, At::End, body, Vector::ZERO, AttachmentKind::Clamp).unwrap();
+    let error = set.step(&mut world).unwrap_err().to_string();
+    assert!(error.contains("torsion") && error.contains("esdirk4") && error.contains("discrete-gradient"), "{error}");
+    set.detach(&mut world, held).unwrap();
+    (0..10).for_each(|_| set.step(&mut world).unwrap());
+    assert!(set.get(rope).unwrap().node_position(4).y < -1.0);
 }

@@ -5,14 +5,14 @@ use crate::integrate::OneStep;
 use crate::model::Model;
 
 /// Checks that a cable has an implicit method where an effect or a reel needs one, the discrete
-/// gradient for contact, and with a reel a method by which its account of energy closes.
+/// gradient for contact and for torsion with a reel, and with a reel a method by which its account
+/// of energy closes.
 pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<(), Error> {
     if model.effects.contact.is_some() && !method.uses_discrete_gradients() {
         return Err(Error::ContactMethod { cable: model.name.clone(), method: method.name() });
     }
-    if model.effects.torsion.is_some() && !method.uses_discrete_gradients() {
-        let by = format!("by {}: use discrete-gradient", method.name());
-        return Err(Error::TorsionPlace { cable: model.name.clone(), by });
+    if !model.reels.is_empty() {
+        check_torsion(model, method, "a reel")?;
     }
     if model.effects.needs_implicit_integrator() && method.stability_limit().is_some() {
         return Err(Error::ExplicitDamping { cable: model.name.clone(), method: method.name() });
@@ -31,4 +31,13 @@ pub(crate) fn check_integrator(model: &Model, method: &dyn OneStep) -> Result<()
         );
     }
     Ok(())
+}
+
+/// Checks that torsion is stepped by the discrete gradient beside something else.
+pub(crate) fn check_torsion(model: &Model, method: &dyn OneStep, beside: &str) -> Result<(), Error> {
+    if model.effects.torsion.is_none() || method.uses_discrete_gradients() {
+        return Ok(());
+    }
+    let by = format!("by {} with {beside}: use discrete-gradient", method.name());
+    Err(Error::TorsionPlace { cable: model.name.clone(), by })
 }

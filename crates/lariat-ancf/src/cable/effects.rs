@@ -31,7 +31,7 @@ impl Cable {
     /// [`Error::WrongCount`] for samples of a flow that are not one per node,
     /// [`Error::ExplicitDamping`] for damping with an explicit integrator, [`Error::ContactMethod`]
     /// for contact with another method than `discrete-gradient`. [`Error::TorsionPlace`]
-    /// for torsion with another one. The cable is then as before.
+    /// for torsion with a reel and another one. The cable is then as before.
     pub fn set_effects(&mut self, effects: Effects) -> Result<(), Error> {
         let mut integrator = self.integrator();
         let coupled = effects.need_discrete_gradient();

@@ -72,7 +72,7 @@ use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
 use as_laid::{AsDrawn, Sagging};
 pub(crate) use carried::Layer;
-pub(crate) use check::check_integrator;
+pub(crate) use check::{check_integrator, check_torsion};
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;
 use nalgebra::Vector3;
@@ -281,7 +281,7 @@ impl Cable {
 
     /// See [`Linearisation`](crate::coupling::Linearisation).
     pub(crate) fn frequency_bound(&self) -> f64 {
-        self.system.scales.frequency_bound
+        self.system.scales.frequency_bound.hypot(self.torsion_frequency())
     }
 
     /// Returns an arc length that is on the cable; one within 1e-9 of the length beyond an end is

@@ -195,11 +195,29 @@ impl Cable {
             return f(self);
         }
         let known = self.snapshot.state.memory.torsion.clone();
-        self.system.static_torsion.get_or_insert_default().begin(&self.model, &mut self.snapshot.state);
+        self.system.torsion_forces.get_or_insert_default().begin(&self.model, &mut self.snapshot.state);
         self.snapshot.state.memory.torsion = known;
         let outcome = f(self);
-        self.system.static_torsion = None;
+        self.system.torsion_forces = None;
         outcome
+    }
+
+    /// Returns by which frequency in rad/s torsion raises the bound of all, squares added.
+    pub(super) fn torsion_frequency(&self) -> f64 {
+        let of = |(segment, twist): (Segment, SegmentTwist)| {
+            let torque = self.torque_in(&segment, &twist);
+            segment.frequency_square(self.elements(), self.positions(), torque, |element| self.model.inertia(element))
+        };
+        self.segments().into_iter().map(of).fold(0.0f64, f64::max).sqrt()
+    }
+
+    /// Begins a host step of a method that evaluates forces.
+    pub(crate) fn begin_torsion(&mut self) {
+        let Cable { model, snapshot, before, buffers, system, diagnostics, .. } = self;
+        if model.effects.torsion.is_some() {
+            let torsion = system.torsion_forces.insert(buffers.torsion.take().unwrap_or_default());
+            diagnostics.twist_slips += torsion.begin_motion(model, &before.q, &mut snapshot.state);
+        }
     }
 
     /// Returns the part of the stiffness that couples all coordinates of a segment, supports in

@@ -193,8 +193,8 @@ for_each_effect!(generate);
 
 impl Effects {
     /// Whether [`Fidelity::Engineering`](crate::Fidelity::Engineering) is by the discrete gradient
-    /// with them, as [`Integrator::COUPLED`](crate::Integrator::COUPLED): contact and torsion have
-    /// no other method.
+    /// with them, as [`Integrator::COUPLED`](crate::Integrator::COUPLED): contact has no other
+    /// method, torsion none on bodies.
     pub fn need_discrete_gradient(&self) -> bool {
         self.contact.is_some() || self.torsion.is_some()
     }

@@ -67,8 +67,9 @@ pub trait Dynamics {
     fn norm(&self, error: &[f64]) -> f64;
 
     /// Is called once for every accepted step of length `h` (s), with the states at both ends;
-    /// accelerations are known in both.
-    fn step_accepted(&mut self, _before: &State, _after: &State, _h: f64) {}
+    /// accelerations are known in both. What the system remembers beside them goes into the memory
+    /// of the last.
+    fn step_accepted(&mut self, _before: &State, _after: &mut State, _h: f64) {}
 
     /// Is called with the state at the beginning of a host step and after every accepted step;
     /// accelerations are valid.

@@ -293,7 +293,7 @@ impl Dynamics for IslandDynamics<'_, '_> {
         }
     }
 
-    fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
+    fn step_accepted(&mut self, before: &State, after: &mut State, h: f64) {
         for (cable, part) in self.equations.cables.iter_mut().zip(&self.equations.layout.parts) {
             cable.equations().0.add_work(before, after, h, part.range(), &part.driven);
         }

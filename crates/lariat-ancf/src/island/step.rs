@@ -10,7 +10,7 @@ use super::memory;
 use super::pin::{PinConstraint, check, is_on_free_body};
 use super::pin_accounts::{PinAccount, PinAccounts};
 use super::reel::{self, Drum, Sheave};
-use crate::cable::{Cable, check_integrator};
+use crate::cable::{Cable, check_integrator, check_torsion};
 use crate::contact::CablePair;
 use crate::error::{Error, require};
 use crate::integrate::{Integrator, IntegratorRef, Scratch, step_control};
@@ -127,6 +127,7 @@ impl Island {
         integrator.check()?;
         check(cables, bodies, pins)?;
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
+        cables.iter().try_for_each(|cable| check_torsion(&cable.model, integrator.method, "an attachment"))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
         reel::check(cables, bodies, pins, (&*sheaves, drums))?;
         coupling::check(&self.layout.coupled, bodies.len())?;

@@ -34,7 +34,11 @@ pub(crate) fn potential(equations: &Equations<'_>, load: f64, q: &[f64]) -> f64 
     axial
         + bending
         + equations.system.static_contact.energy(equations.model, q)
-        + equations.system.static_torsion.as_ref().map_or(0.0, |torsion| torsion.energy(equations.model, q))
+        + equations
+            .system
+            .torsion_forces
+            .as_ref()
+            .map_or(0.0, |torsion| torsion.energy(equations.model, (q, equations.system.static_time)))
         + equations.system.potentials.energy(equations.model, q)
         - equations.system.loads.gravity_work(q)
         - equations.system.loads.effect_work(q)

@@ -59,11 +59,14 @@ impl Cable {
         let (counts, outcome) = if integrator.method.uses_discrete_gradients() {
             advance_alone(self, integrator, dt)
         } else {
+            self.begin_torsion();
             let (model, state) = (&self.model, &mut self.snapshot.state);
             let equations = Equations { model, system: &mut self.system, diagnostics: &mut self.diagnostics };
             state.memory.differences.clear();
             let mut dynamics = CableDynamics { equations, buffers: &mut self.buffers };
-            step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch)
+            let outcome = step_control::advance(&mut dynamics, integrator, state, dt, &mut self.scratch);
+            self.buffers.torsion = self.system.torsion_forces.take();
+            outcome
         };
         self.diagnostics.steps += counts.steps;
         self.diagnostics.rejected_steps += counts.rejected;

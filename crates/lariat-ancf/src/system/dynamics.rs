@@ -35,7 +35,7 @@ struct CableStage<'a, 'b> {
 impl Linearised for CableStage<'_, '_> {
     fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure> {
         let CableStage { equations, stage, y, velocity_base, .. } = self;
-        let Buffers { rhs, product, z, velocity } = &mut *self.buffers;
+        let Buffers { rhs, product, z, velocity, .. } = &mut *self.buffers;
         equations.diagnostics.newton_iterations += 1;
         for (i, v) in velocity.iter_mut().enumerate() {
             *v = velocity_base[i] + stage.dv_dq * z[i];
@@ -94,6 +94,7 @@ impl Dynamics for CableDynamics<'_> {
 
     fn place(&mut self, state: &mut State) {
         self.equations.place_supports(state.time, &mut state.q, &mut state.v);
+        self.equations.accept_torsion(state);
     }
 
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), StepFailure> {
@@ -181,8 +182,9 @@ impl Dynamics for CableDynamics<'_> {
         self.equations.model.has_exact_tangent()
     }
 
-    fn step_accepted(&mut self, before: &State, after: &State, h: f64) {
+    fn step_accepted(&mut self, before: &State, after: &mut State, h: f64) {
         self.equations.add_work(before, after, h, 0..after.q.len(), &[]);
+        self.equations.accept_torsion(after);
     }
 
     fn state_reached(&mut self, state: &State) {
@@ -218,6 +220,8 @@ impl Dynamics for CableDynamics<'_> {
     }
 
     fn frequency_bound(&self) -> f64 {
-        self.equations.system.scales.frequency_bound
+        let Equations { model, system, .. } = &self.equations;
+        let of_torsion = system.torsion_forces.as_ref().map_or(0.0, |torsion| torsion.frequency_square(model));
+        system.scales.frequency_bound.hypot(of_torsion.sqrt())
     }
 }

@@ -8,6 +8,7 @@
 //! ```text
 //! effects, loads   int F(q(s), q'(s), t) . q'(s) ds                     2 Gauss points
 //! effects          h F(q(1/2), dq/h, t) . dq/h                          if the step is not resolved
+//! motors           int M theta' ds                                      2 Gauss points
 //! supports         J_p . dq_p/h + h (R0 - R1) . (v0 - v1)_p/12          J_p = sum_i w_p(i) (M (v1 - v0) - h (F0 + F1)/2)_i
 //! their slopes     int ((1 - s) R0 + s R1) . q'(s) ds                   R = M q'' - F of prescribed coordinates
 //! a jump           (v1.M v1 - v0.M v0)/2
@@ -81,11 +82,14 @@ impl Equations<'_> {
         let forces = &self.system.forces;
         let dissipates = forces.in_element.as_ref().is_some_and(|effects| effects.dissipates());
         let line_loads = !self.system.feeds.is_empty() && self.model.effects.line_loads.is_some();
-        let effects = dissipates || forces.act_at_points() || line_loads;
-        if !effects && self.model.loads.is_empty() {
+        let torsion = self.model.effects.torsion.as_ref().filter(|_| self.system.torsion_forces.is_some());
+        let twist_damps = torsion.is_some_and(|torsion| torsion.damping > 0.0);
+        let effects = dissipates || forces.act_at_points() || line_loads || twist_damps;
+        let motors = torsion.is_some_and(|torsion| !torsion.is_still(before.time));
+        if !effects && !motors && self.model.loads.is_empty() {
             return;
         }
-        let (mut along, mut loads) = (EffectWork::default(), 0.0);
+        let (mut along, mut loads, mut turned) = (EffectWork::default(), 0.0, 0.0);
         for s in POINTS {
             self.read_cubic(s, (before, after, h), range.clone());
             let time = before.time + s * h;
@@ -93,10 +97,14 @@ impl Equations<'_> {
                 along.add_scaled(0.5 * h, &self.effect_power(time));
             }
             let EnergyMeter { q, v, .. } = &self.system.meter;
+            if let Some(torsion) = &mut self.system.torsion_forces {
+                turned += 0.5 * h * torsion.powers(self.model, time, [q, v])[1];
+            }
             loads += 0.5 * h * self.system.loads.point_power(&self.model.loads, time, q, v);
         }
         let meter = &mut self.system.meter;
         meter.law.loads += loads;
+        meter.law.supports += turned;
         if !effects {
             return;
         }
@@ -141,6 +149,9 @@ impl Equations<'_> {
             power.line_loads = of_lines.iter().zip(input.v).map(|(f, v)| f * v).sum();
         }
         forces.at_points.add_power(system.level, input, force, &mut power);
+        if let Some(torsion) = &mut system.torsion_forces {
+            power.torsion = -torsion.powers(self.model, time, [input.q, input.v])[0];
+        }
         if let Some(densities) = &mut forces.densities {
             force.fill(0.0);
             densities.add(system.level, input, force, None);
@@ -238,6 +249,7 @@ impl Equations<'_> {
             |load: &PointLoad| load.moment == Vector3::zeros() && load.history.is_empty() && load.factor(time) == 1.0;
         self.model.supports.iter().all(|(_, support)| support.is_still())
             && self.model.loads.iter().all(steady)
+            && self.model.effects.torsion.as_ref().is_none_or(|torsion| torsion.is_still(time))
             && self.system.forces.densities.is_none()
             && self.system.feeds.are_still()
     }
@@ -253,7 +265,8 @@ impl Equations<'_> {
         let kinetic =
             0.5 * momentum.iter().zip(v).map(|(p, v)| p * v).sum::<f64>() + system.feed_kinetic(self.model, time, q, v);
         let (axial, bending) = system.forces.strain_energy(q);
-        let own = kinetic + axial + bending;
+        let torsion = system.torsion_forces.as_ref().map_or(0.0, |torsion| torsion.energy(self.model, (q, time)));
+        let own = kinetic + axial + bending + torsion;
         let loads = &system.loads;
         let work = loads.gravity_work(q) + loads.effect_work(q) + loads.point_work(self.model, 1.0, q);
         (own, own + system.potentials.energy(self.model, q) - work)

@@ -88,8 +88,8 @@ impl Equations<'_> {
         system.potentials.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
         system.static_contact.add(self.model, (q, scale), out, mass_scale.map(|_| &mut *matrix));
         let to = mass_scale.map(|_| &mut *matrix);
-        if let Some(torsion) = &mut system.static_torsion {
-            diagnostics.effects.torsion += torsion.add(self.model, (q, scale), out, to);
+        if let Some(torsion) = &mut system.torsion_forces {
+            diagnostics.effects.torsion += torsion.add(self.model, &input, out, to);
         }
         system.feeds.add(self.model, &input, out, mass_scale.map(|_| matrix));
     }

@@ -44,6 +44,7 @@ mod rigid_motion;
 mod step_vectors;
 mod store;
 pub(crate) mod torsion;
+mod torsion_motion;
 mod torsion_solve;
 mod vectors;
 
@@ -93,8 +94,8 @@ pub(crate) struct System {
     pub static_time: f64,
     /// Contact in statics.
     pub static_contact: StaticContact,
-    /// Torsion, in statics alone.
-    pub static_torsion: Option<Box<torsion::StaticTorsion>>,
+    /// Torsion where forces are evaluated: in statics, and in the stages of methods.
+    pub torsion_forces: Option<Box<torsion::TorsionForces>>,
 }
 
 /// The matrix of an implicit step and its factors; empty between two steps.
@@ -117,6 +118,8 @@ pub(crate) struct Buffers {
     pub z: Vec<f64>,
     /// Velocities of a stage; empty where no force depends on them.
     pub velocity: Vec<f64>,
+    /// Torsion, which the system has while it steps.
+    pub torsion: Option<Box<torsion::TorsionForces>>,
 }
 
 /// Sizes by which increments and steps are judged.
@@ -157,7 +160,7 @@ impl System {
             feeds: Feeds::new(model),
             static_time: 0.0,
             static_contact: StaticContact::default(),
-            static_torsion: None,
+            torsion_forces: None,
         })
     }
 

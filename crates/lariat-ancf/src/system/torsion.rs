@@ -1,4 +1,5 @@
-//! Torsion where forces are functions of the coordinates: in statics.
+//! Torsion where forces are functions of the coordinates: in statics, and in the stages of methods
+//! ([`torsion_motion`](super::torsion_motion)).
 //!
 //! # Equation
 //!
@@ -8,12 +9,13 @@
 //!
 //! Where bodies hold a segment, their spin ([`spin`](crate::effect::torsion::spin)) is part of Phi.
 //!
-//! Phi is advanced by its exact increments from shape to shape as they are evaluated, along great
-//! circles; what slips on the way is counted where the twist is another one for it
-//! ([`check`](crate::effect::torsion::check)). The second part of
-//! the stiffness couples all coordinates of a segment; it enters where equations are solved
+//! In statics Phi is advanced by its exact increments from shape to shape as they are evaluated,
+//! along great circles; what slips on the way is counted where the twist is another one for it
+//! ([`check`](crate::effect::torsion::check)). The second part of the stiffness couples all
+//! coordinates of a segment; it enters where equations are solved
 //! ([`rank`](crate::effect::torsion::rank)).
 
+use crate::effect::acts::ForceInput;
 use crate::effect::torsion::check::Check;
 use crate::effect::torsion::curve::Curve;
 use crate::effect::torsion::lengths::Lengths;
@@ -25,19 +27,22 @@ use crate::model::Model;
 use crate::state::{SegmentTwist, State};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// A segment in statics.
+/// A segment.
 #[derive(Clone, Debug)]
-pub(super) struct StaticSegment {
+pub(super) struct ForceSegment {
     pub segment: Segment,
     /// Twist at the last shape.
-    twist: f64,
+    pub twist: f64,
     /// dPhi/dq, of the segment's coordinates.
     pub gradient: Vec<f64>,
-    /// The matrix of the last evaluation, inverted, times it.
+    /// That of the matrix that is factored.
+    pub factored: Vec<f64>,
+    /// That matrix, inverted, times it.
     pub column: Vec<f64>,
     /// The bodies that hold it.
     ends: [Option<BodyEnd>; 2],
-    check: Check,
+    /// In statics.
+    check: Option<Check>,
 }
 
 /// A body that holds the spin of an end, in statics.
@@ -52,9 +57,14 @@ pub(crate) struct BodyEnd {
 }
 
 /// Coefficient: sign of the spin of the first and of the last hold in the twist.
-const SIGNS: [f64; 2] = [-1.0, 1.0];
+pub(super) const SIGNS: [f64; 2] = [-1.0, 1.0];
 
-impl StaticSegment {
+impl ForceSegment {
+    fn new(segment: Segment) -> Self {
+        let [gradient, factored, column] = [(); 3].map(|_| Vec::new());
+        ForceSegment { segment, twist: 0.0, gradient, factored, column, ends: [None; 2], check: None }
+    }
+
     /// Returns what the spin of its bodies adds to the twist from the last shape to the next.
     fn spin(&self) -> f64 {
         let of = |(end, sign): (&Option<BodyEnd>, f64)| {
@@ -71,37 +81,44 @@ impl StaticSegment {
     }
 }
 
-/// Torsion in statics.
+/// Torsion of a cable whose forces are evaluated.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct StaticTorsion {
-    pub(super) segments: Vec<StaticSegment>,
-    /// The last shape.
-    shape: Vec<f64>,
-    /// Factor on the matrix of the last evaluation.
+pub(crate) struct TorsionForces {
+    pub(super) segments: Vec<ForceSegment>,
+    found: Vec<Segment>,
+    /// The last shape; in motion that at the beginning of the step.
+    pub(super) shape: Vec<f64>,
+    /// Time in s of that shape, in motion.
+    pub(super) since: Option<f64>,
+    /// Factor on K in the matrix of the last evaluation.
     pub(super) scale: f64,
     pub(super) rank: RankUpdate,
     /// Whether it is the island that solves with its stiffness.
     pub(super) in_island: bool,
 }
 
-impl StaticTorsion {
-    /// Begins with the twists of a state.
+impl TorsionForces {
+    /// Begins statics with the twists of a state.
     pub fn begin(&mut self, model: &Model, state: &mut State) {
-        self.segments.clear();
-        let mut segments = Vec::new();
-        model.find_segments(&mut segments);
-        model.follow_holds(&segments, &mut state.memory.torsion);
-        let twists = state.memory.torsion.iter().flatten();
-        self.segments.extend(segments.into_iter().zip(twists).map(|(segment, twist)| StaticSegment {
-            segment,
-            twist: twist.twist,
-            gradient: Vec::new(),
-            column: Vec::new(),
-            ends: [None; 2],
-            check: Check::of(&Curve::between(segment.nodes, &model.elements, &state.q)),
-        }));
+        self.find(model, state);
+        for own in &mut self.segments {
+            own.check = Some(Check::of(&Curve::between(own.segment.nodes, &model.elements, &state.q)));
+        }
         self.shape.clone_from(&state.q);
-        self.in_island = false;
+    }
+
+    /// Finds the segments, and their twists in a state.
+    pub(super) fn find(&mut self, model: &Model, state: &mut State) {
+        let Self { segments, found, .. } = self;
+        model.find_segments(found);
+        model.follow_holds(found, &mut state.memory.torsion);
+        segments.truncate(found.len());
+        found[segments.len()..].iter().for_each(|segment| segments.push(ForceSegment::new(*segment)));
+        let twists = state.memory.torsion.iter().flatten();
+        for ((own, segment), twist) in segments.iter_mut().zip(found).zip(twists) {
+            (own.segment, own.twist, own.ends, own.check) = (*segment, twist.twist, [None; 2], None);
+        }
+        (self.since, self.in_island) = (None, false);
     }
 
     /// Leaves the solution to an island, whose bodies hold segments: `end` returns that at a node.
@@ -137,7 +154,7 @@ impl StaticTorsion {
 
     /// Returns the sum of the torques in N m, without their signs.
     pub fn torque(&self, model: &Model) -> f64 {
-        let of = |own: &StaticSegment| own.segment.torque(&model.elements, &self.shape, own.twist).abs();
+        let of = |own: &ForceSegment| own.segment.torque(&model.elements, &self.shape, own.twist).abs();
         self.segments.iter().map(of).sum()
     }
 
@@ -165,8 +182,9 @@ impl StaticTorsion {
     /// the way, where a twist is another one for it.
     pub fn end(&mut self, model: &Model, state: &mut State) -> u64 {
         self.follow(model, &state.q);
-        let curve = |own: &StaticSegment| Curve::between(own.segment.nodes, &model.elements, &state.q);
-        let slips = self.segments.iter().map(|own| own.check.lost(&curve(own))).sum();
+        let curve = |own: &ForceSegment| Curve::between(own.segment.nodes, &model.elements, &state.q);
+        let lost = |own: &ForceSegment| own.check.map_or(0, |check| check.lost(&curve(own)));
+        let slips = self.segments.iter().map(lost).sum();
         let own: &mut [SegmentTwist] = state.memory.torsion.as_deref_mut().unwrap_or_default();
         for (to, own) in own.iter_mut().zip(&self.segments) {
             (to.twist, to.change) = (own.twist, 0.0);
@@ -187,7 +205,7 @@ impl StaticTorsion {
 
     /// Returns the twist that the curve adds from the last shape to another, and how many pairs
     /// slip.
-    fn change(&self, own: &StaticSegment, model: &Model, q: &[f64]) -> (f64, u64) {
+    fn change(&self, own: &ForceSegment, model: &Model, q: &[f64]) -> (f64, u64) {
         own.segment.follow(&model.elements, [&self.shape, q])
     }
 
@@ -204,41 +222,55 @@ impl StaticTorsion {
         let changes: Vec<(f64, u64)> = self.segments.iter().map(|own| self.change(own, model, q)).collect();
         for (own, change) in self.segments.iter_mut().zip(changes) {
             own.twist += change.0 + own.spin();
-            own.check.follow(&Curve::between(own.segment.nodes, &model.elements, q), change);
+            if let Some(check) = &mut own.check {
+                check.follow(&Curve::between(own.segment.nodes, &model.elements, q), change);
+            }
             own.ends.iter_mut().flatten().for_each(|end| end.attitude[0] = end.attitude[1]);
         }
         self.shape.copy_from_slice(q);
     }
 
-    /// Returns the energy in J of a shape.
-    pub fn energy(&self, model: &Model, q: &[f64]) -> f64 {
-        let of = |own: &StaticSegment| {
-            let twist = if self.is_last(q) { own.twist } else { own.twist + self.change(own, model, q).0 + own.spin() };
-            let twist = own.segment.loaded(&model.elements, q, twist);
+    /// Returns the twist in rad of a segment in a shape at a time in s.
+    pub(super) fn twist_in(&self, own: &ForceSegment, model: &Model, (q, time): (&[f64], f64)) -> f64 {
+        let curve = if self.is_last(q) { 0.0 } else { self.change(own, model, q).0 + own.spin() };
+        own.twist + curve + self.driven(own, model, time)
+    }
+
+    /// Returns the energy in J of a shape at a time in s.
+    pub fn energy(&self, model: &Model, at: (&[f64], f64)) -> f64 {
+        let of = |own: &ForceSegment| {
+            let twist = own.segment.loaded(&model.elements, at.0, self.twist_in(own, model, at));
             0.5 * own.segment.stiffness * twist * twist
         };
         self.segments.iter().map(of).sum()
     }
 
-    /// Adds the force of a shape times `scale`, and the part of its negative derivative that
-    /// couples neighbours alone.
+    /// Adds the force of a shape times the input's factor, and the part of its negative derivative
+    /// that couples neighbours alone.
     pub fn add(
         &mut self,
         model: &Model,
-        (q, scale): (&[f64], f64),
+        input: &ForceInput<'_>,
         out: &mut [f64],
         mut matrix: Option<&mut BlockTridiagonal>,
     ) -> u64 {
-        self.follow(model, q);
+        let (q, scale) = (input.q, input.scale);
+        if self.since.is_none() {
+            self.follow(model, q);
+        }
         if matrix.is_some() {
-            self.scale = scale;
+            self.scale = scale * (1.0 + self.damping(model) * input.dv_dq);
         }
         let mut count = 0;
-        for StaticSegment { segment, twist, gradient, .. } in &mut self.segments {
-            let torque = segment.torque(&model.elements, q, *twist);
+        for number in 0..self.segments.len() {
+            let twist = self.twist_in(&self.segments[number], model, (q, input.time));
+            let ForceSegment { segment, gradient, .. } = &mut self.segments[number];
             segment.gradient(&model.elements, q, gradient);
+            let elastic = segment.torque(&model.elements, q, twist);
+            let torque = elastic + self.damping_torque(&self.segments[number], model, input);
+            let ForceSegment { segment, gradient, .. } = &self.segments[number];
             let own = &mut out[segment.range()];
-            own.iter_mut().zip(gradient.iter()).for_each(|(out, g)| *out -= scale * torque * g);
+            own.iter_mut().zip(gradient).for_each(|(out, g)| *out -= scale * torque * g);
             if let Some(matrix) = &mut matrix {
                 segment.add_hessian(&Lengths::fixed(&model.elements), |i| q[i], scale * torque, matrix);
             }

@@ -5,7 +5,7 @@
 //!
 //! That of [`rank`](crate::effect::torsion::rank); the columns are those of the segments.
 
-use super::torsion::StaticTorsion;
+use super::torsion::TorsionForces;
 use super::{Equations, dot, project_vector};
 use crate::error::StepFailure;
 use crate::linalg::Definiteness;
@@ -13,11 +13,12 @@ use crate::linalg::Definiteness;
 impl Equations<'_> {
     /// Adds torsion to the factored step matrix; returns what that makes of a kind.
     pub(super) fn factor_torsion(&mut self, kind: Definiteness) -> Result<Definiteness, StepFailure> {
-        let Some(mut torsion) = self.system.static_torsion.take_if(|torsion| !torsion.is_empty() && !torsion.in_island)
+        let Some(mut torsion) = self.system.torsion_forces.take_if(|torsion| !torsion.is_empty() && !torsion.in_island)
         else {
             return Ok(kind);
         };
         for own in &mut torsion.segments {
+            own.factored.clone_from(&own.gradient);
             own.column.clear();
             own.column.resize(6 * self.model.nodes(), 0.0);
             own.column[own.segment.range()].copy_from_slice(&own.gradient);
@@ -25,11 +26,11 @@ impl Equations<'_> {
             self.diagnostics.solves += 1;
             self.system.step.factorisation.solve(self.system.level, &mut own.column);
         }
-        let StaticTorsion { segments, scale, rank, .. } = &mut *torsion;
-        let product = |s: usize, t: usize| dot(&segments[s].gradient, &segments[t].column[segments[s].segment.range()]);
+        let TorsionForces { segments, scale, rank, .. } = &mut *torsion;
+        let product = |s: usize, t: usize| dot(&segments[s].factored, &segments[t].column[segments[s].segment.range()]);
         let outcome = rank.factor(segments.len(), |s| *scale * segments[s].segment.stiffness, product);
         let removed = rank.negative();
-        self.system.static_torsion = Some(torsion);
+        self.system.torsion_forces = Some(torsion);
         outcome?;
         Ok(match kind {
             Definiteness::Indefinite { negative: Some(count) } if count == removed => Definiteness::PositiveDefinite,
@@ -42,12 +43,12 @@ impl Equations<'_> {
 
     /// Completes a solution with the step matrix by torsion.
     pub(super) fn complete_by_torsion(&mut self, x: &mut [f64]) {
-        let Some(torsion) = &mut self.system.static_torsion else { return };
-        let StaticTorsion { segments, rank, .. } = &mut **torsion;
+        let Some(torsion) = &mut self.system.torsion_forces else { return };
+        let TorsionForces { segments, rank, .. } = &mut **torsion;
         if segments.is_empty() {
             return;
         }
-        let product = |s: usize| dot(&segments[s].gradient, &x[segments[s].segment.range()]);
+        let product = |s: usize| dot(&segments[s].factored, &x[segments[s].segment.range()]);
         let forces = rank.forces(segments.len(), product);
         for (own, force) in segments.iter().zip(forces) {
             x.iter_mut().zip(&own.column).for_each(|(x, y)| *x -= force * y);

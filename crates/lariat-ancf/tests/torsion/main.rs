@@ -1,6 +1,7 @@
 //! Cables with torsion, in statics and in motion, and with all else that a cable has.
 
 mod course;
+mod methods;
 mod motion;
 mod others;
 mod plectoneme;

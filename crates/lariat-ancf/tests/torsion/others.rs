@@ -28,19 +28,6 @@ fn run(cable: &mut Cable, frames: usize) {
     (0..frames).for_each(|_| cable.step(1.0 / 60.0).unwrap());
 }
 
-/// Other methods are refused by name.
-///
-/// *Source.* The contract.
-#[test]
-fn what_does_not_carry_torsion_is_refused() {
-    for method in [Method::Esdirk3, Method::Midpoint, Method::Verlet] {
-        let other = Integrator { method, control: StepControl::MaxStep(1e-3) };
-        let error = clamped(Some(twisted(1.0))).integrator(other).build().unwrap_err();
-        assert!(matches!(&error, Error::TorsionPlace { .. }), "{error}");
-        assert!(error.to_string().contains("discrete-gradient"), "{error}");
-    }
-}
-
 /// Fidelity engineering steps a cable with torsion, as built or given it later: by the discrete
 /// gradient with control of the error. A sagging cable that a motor winds up is off by less than the
 /// tolerance of all host steps, and makes no energy.

@@ -75,7 +75,8 @@ class MotorCourse:
 
 @dataclass(frozen=True)
 class Torsion:
-    """Torsion: one torque between two clamps that hold the spin. Needs the integrator "discrete-gradient"."""
+    """Torsion: one torque between two clamps that hold the spin. On bodies and with reels it needs the integrator
+    "discrete-gradient"."""
 
     stiffness: float
     """GJ in N m^2, > 0."""

@@ -111,6 +111,15 @@ impl EndSpin {
         }
     }
 
+    /// Returns the rate in rad/s of the motor at a time in s.
+    pub(crate) fn rate(&self, time: f64) -> f64 {
+        match self {
+            &EndSpin::Motor { rate, from, until } if (from..until).contains(&time) => TAU * rate,
+            EndSpin::Course(rows) => TAU * smooth::rate_at(rows, time),
+            EndSpin::Motor { .. } | EndSpin::Held | EndSpin::Swivel => 0.0,
+        }
+    }
+
     fn is_still(&self, time: f64) -> bool {
         self.is_steady(time, f64::INFINITY)
     }
@@ -252,11 +261,11 @@ impl Effect for Torsion {
     }
 
     fn has_exact_tangent(&self) -> bool {
-        true
+        self.damping == 0.0
     }
 
     fn needs_implicit_integrator(&self) -> bool {
-        false
+        self.damping > 0.0
     }
 
     fn is_steady(&self, from: f64, to: f64) -> bool {

@@ -100,7 +100,7 @@ impl Cable {
         }
         self.system.static_contact.begin(model, time, &q);
         if self.model.effects.torsion.is_some() {
-            let torsion = self.system.static_torsion.get_or_insert_default();
+            let torsion = self.system.torsion_forces.get_or_insert_default();
             torsion.begin(&self.model, &mut self.snapshot.state);
         }
     }
@@ -110,7 +110,7 @@ impl Cable {
         let mut contacts = Vec::new();
         self.system.static_contact.remember(&self.model, &self.snapshot.state.q, &mut contacts);
         self.system.static_contact.end();
-        if let Some(mut torsion) = self.system.static_torsion.take() {
+        if let Some(mut torsion) = self.system.torsion_forces.take() {
             self.diagnostics.twist_slips += torsion.end(&self.model, &mut self.snapshot.state);
         }
         contacts

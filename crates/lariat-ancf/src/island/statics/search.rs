@@ -78,7 +78,7 @@ impl<'a> Search<'a> {
         // a body that is held at its centre turns about nothing
         layout.levers.iter_mut().filter(|lever| **lever < LEVER_ROUNDING * length).for_each(|lever| *lever = 0.0);
         twists::begin(cables, &layout);
-        let twisted = |c: &&mut Cable| c.system.static_torsion.as_ref().is_some_and(|torsion| torsion.count() > 0);
+        let twisted = |c: &&mut Cable| c.system.torsion_forces.as_ref().is_some_and(|torsion| torsion.count() > 0);
         let twists = cables.iter().any(twisted).then(Twists::default);
         let driven = cables.iter().any(|c| c.system.forces.drive()) || !loads.have_potential(bodies);
         let moments = cables.iter().flat_map(|c| &c.model.loads).any(|load| load.moment != Vector3::zeros());

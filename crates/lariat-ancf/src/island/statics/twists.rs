@@ -35,7 +35,7 @@ pub(super) struct Twists {
 pub(super) fn begin(cables: &mut [&mut Cable], layout: &Layout) {
     for (c, cable) in cables.iter_mut().enumerate() {
         let Cable { system, snapshot, .. } = &mut **cable;
-        let Some(torsion) = &mut system.static_torsion else { continue };
+        let Some(torsion) = &mut system.torsion_forces else { continue };
         torsion.join_island(&snapshot.state, |node| {
             let pin = layout.pins.iter().find(|pin| (pin.cable, pin.node) == (c, node))?;
             let attitude = layout.bodies[pin.body].rotation;
@@ -47,13 +47,13 @@ pub(super) fn begin(cables: &mut [&mut Cable], layout: &Layout) {
 /// Returns the torques of the segments over a length (m), in N: the load of a cable that is twisted
 /// alone.
 pub(super) fn force(cables: &[&mut Cable], length: f64) -> f64 {
-    let of = |cable: &&mut Cable| cable.system.static_torsion.as_ref().map_or(0.0, |own| own.torque(&cable.model));
+    let of = |cable: &&mut Cable| cable.system.torsion_forces.as_ref().map_or(0.0, |own| own.torque(&cable.model));
     cables.iter().map(of).sum::<f64>() / length
 }
 
 /// Sets the attitudes of bodies at coordinates that are evaluated next.
 pub(super) fn follow(cables: &mut [&mut Cable], layout: &Layout, q: &[f64]) {
-    for torsion in cables.iter_mut().filter_map(|cable| cable.system.static_torsion.as_mut()) {
+    for torsion in cables.iter_mut().filter_map(|cable| cable.system.torsion_forces.as_mut()) {
         torsion.turn_bodies(|body| layout.attitude(body, &q[layout.body_at(body)..]));
     }
 }
@@ -62,7 +62,7 @@ pub(super) fn follow(cables: &mut [&mut Cable], layout: &Layout, q: &[f64]) {
 /// bodies.
 pub(super) fn add_torques(cables: &[&mut Cable], layout: &Layout, scale: f64, rhs: &mut [f64]) {
     for cable in cables {
-        let Some(torsion) = &cable.system.static_torsion else { continue };
+        let Some(torsion) = &cable.system.torsion_forces else { continue };
         for (body, torque) in torsion.torques(&cable.model) {
             add(layout, (body, torque * scale), rhs);
         }
@@ -77,13 +77,13 @@ fn add(layout: &Layout, (body, torque): (usize, Vector3<f64>), rhs: &mut [f64]) 
 
 /// Returns the segments: cable and number.
 fn segments(cables: &[&mut Cable]) -> Vec<(usize, usize)> {
-    let count = |cable: &Cable| cable.system.static_torsion.as_ref().map_or(0, |torsion| torsion.count());
+    let count = |cable: &Cable| cable.system.torsion_forces.as_ref().map_or(0, |torsion| torsion.count());
     cables.iter().enumerate().flat_map(|(c, cable)| (0..count(cable)).map(move |s| (c, s))).collect()
 }
 
 /// Returns g.x of a segment.
 fn along(cables: &[&mut Cable], layout: &Layout, (cable, segment): (usize, usize), x: &[f64]) -> f64 {
-    let Some(torsion) = &cables[cable].system.static_torsion else { return 0.0 };
+    let Some(torsion) = &cables[cable].system.torsion_forces else { return 0.0 };
     let (range, gradient, levers) = torsion.gradient(segment);
     let own = &x[layout.parts[cable].range()][range];
     let of_bodies = levers.map(|(body, lever)| {
@@ -101,7 +101,7 @@ impl Twists {
         for (&(cable, segment), column) in list.iter().zip(&mut self.columns) {
             column.clear();
             column.resize(layout.size(), 0.0);
-            let Some(torsion) = &equations.cables[cable].system.static_torsion else { continue };
+            let Some(torsion) = &equations.cables[cable].system.torsion_forces else { continue };
             let (range, gradient, levers) = torsion.gradient(segment);
             column[layout.parts[cable].range()][range].copy_from_slice(gradient);
             layout.pass_pinned_rows(q, column);
@@ -111,7 +111,7 @@ impl Twists {
         let cables = &*equations.cables;
         let stiffness = |s: usize| {
             let (cable, segment) = list[s];
-            cables[cable].system.static_torsion.as_ref().map_or(0.0, |torsion| torsion.stiffness(segment))
+            cables[cable].system.torsion_forces.as_ref().map_or(0.0, |torsion| torsion.stiffness(segment))
         };
         let product = |s: usize, t: usize| along(cables, layout, list[s], &self.columns[t]);
         Ok(self.rank.factor(list.len(), stiffness, product)?)

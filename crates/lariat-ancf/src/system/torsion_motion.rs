@@ -1,0 +1,128 @@
+//! Torsion in the stages of methods that evaluate forces, of a cable by itself.
+//!
+//! # Equation
+//!
+//! ```text
+//! Phi(q, t) = Phi(start of step) + change along the curve to q + turns of motors since then
+//! M = K (Phi + tau Phi')        Phi' = g.q' + rates of motors        g = dPhi/dq
+//! F = -M g        -dF/dq - rate dF/dq' = M Hess(Phi) + K (1 + tau rate) g g^T - K tau g (Hess(Phi) q')^T
+//! ```
+//!
+//! It is a force of coordinates and time, so methods keep their orders. The last term of the matrix
+//! is left out: with damping the tangent is not exact. Explicit methods need a bound of the
+//! frequencies. With the weights l_e/L of Cauchy's inequality for the sum g.q' over the elements,
+//! and m_e and h_e mass and Hessian of one alone,
+//!
+//! ```text
+//! omega^2 <= omega_0^2 + max_e (GJ/l_e g_e.(m_e^-1 g_e) + |M| |m_e^(-1/2) h_e m_e^(-1/2)|)
+//! ```
+//!
+//! # Validity
+//!
+//! Cables without reels; on bodies the discrete gradient alone carries torsion.
+//!
+//! # References
+//!
+//! Irons & Treharne 1971 (the largest frequency is at most that of an element).
+
+use super::torsion::{ForceSegment, SIGNS, TorsionForces};
+use super::{Equations, dot};
+use crate::effect::acts::ForceInput;
+use crate::effect::{EndSpin, Torsion};
+use crate::model::Model;
+use crate::state::State;
+
+impl TorsionForces {
+    /// Begins with a state, whose curve was `before` when its twists were noted. Returns how many
+    /// pairs slip from there.
+    pub fn begin_motion(&mut self, model: &Model, before: &[f64], state: &mut State) -> u64 {
+        self.find(model, state);
+        self.shape.clear();
+        self.shape.extend_from_slice(before);
+        self.since = Some(state.time);
+        self.accept(model, state)
+    }
+
+    /// Advances the twists to a state, and leaves them in it. Returns how many pairs slip.
+    pub fn accept(&mut self, model: &Model, state: &mut State) -> u64 {
+        let mut slips = 0;
+        for number in 0..self.segments.len() {
+            let own = &self.segments[number];
+            let twist = self.twist_in(own, model, (&state.q, state.time));
+            slips += own.segment.follow(&model.elements, [&self.shape, &state.q]).1;
+            self.segments[number].twist = twist;
+            let noted = state.memory.torsion.as_mut().and_then(|all| all.get_mut(number));
+            noted.into_iter().for_each(|noted| (noted.twist, noted.change) = (twist, 0.0));
+        }
+        self.shape.copy_from_slice(&state.q);
+        self.since = Some(state.time);
+        slips
+    }
+
+    /// Returns by how much in rad motors have turned a segment since the last shape.
+    pub(super) fn driven(&self, own: &ForceSegment, model: &Model, time: f64) -> f64 {
+        let Some(since) = self.since else { return 0.0 };
+        sum_of_motors(own, model, |spin| spin.angle(time) - spin.angle(since))
+    }
+
+    /// Returns the damping time in s; none in statics.
+    pub(super) fn damping(&self, model: &Model) -> f64 {
+        let of = |torsion: &Torsion| if self.since.is_some() { torsion.damping } else { 0.0 };
+        model.effects.torsion.as_ref().map_or(0.0, of)
+    }
+
+    /// Returns the torque in N m of damping at the gradient of a segment.
+    pub(super) fn damping_torque(&self, own: &ForceSegment, model: &Model, input: &ForceInput<'_>) -> f64 {
+        let damping = self.damping(model);
+        if damping == 0.0 {
+            return 0.0;
+        }
+        damping * own.segment.stiffness * twist_rate(own, model, (input.time, input.v))
+    }
+
+    /// Returns by how much torsion raises a bound of the squares of the frequencies, in 1/s^2, at
+    /// the last shape.
+    pub fn frequency_square(&self, model: &Model) -> f64 {
+        let of = |own: &ForceSegment| {
+            let torque = own.segment.torque(&model.elements, &self.shape, own.twist);
+            own.segment.frequency_square(&model.elements, &self.shape, torque, |element| model.inertia(element))
+        };
+        self.segments.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Returns the power in W that damping takes, and that of motors.
+    pub fn powers(&mut self, model: &Model, time: f64, [q, v]: [&[f64]; 2]) -> [f64; 2] {
+        let mut powers = [0.0; 2];
+        for number in 0..self.segments.len() {
+            let twist = self.twist_in(&self.segments[number], model, (q, time));
+            let ForceSegment { segment, gradient, .. } = &mut self.segments[number];
+            segment.gradient(&model.elements, q, gradient);
+            let own = &self.segments[number];
+            let damping = self.damping(model) * own.segment.stiffness * twist_rate(own, model, (time, v));
+            let torque = own.segment.torque(&model.elements, q, twist) + damping;
+            powers[0] += damping * twist_rate(own, model, (time, v));
+            powers[1] += torque * sum_of_motors(own, model, |spin| spin.rate(time));
+        }
+        powers
+    }
+}
+
+/// Returns the sum over the motors at both holds of a segment, with their signs.
+fn sum_of_motors(own: &ForceSegment, model: &Model, of: impl Fn(&EndSpin) -> f64) -> f64 {
+    let Some(torsion) = &model.effects.torsion else { return 0.0 };
+    own.segment.nodes.into_iter().zip(SIGNS).map(|(node, sign)| sign * of(model.end_spin(torsion, node))).sum()
+}
+
+/// Returns the rate in rad/s of the twist of a segment at its gradient.
+fn twist_rate(own: &ForceSegment, model: &Model, (time, v): (f64, &[f64])) -> f64 {
+    dot(&own.gradient, &v[own.segment.range()]) + sum_of_motors(own, model, |spin| spin.rate(time))
+}
+
+impl Equations<'_> {
+    /// Advances the twists to a state.
+    pub fn accept_torsion(&mut self, state: &mut State) {
+        if let Some(torsion) = &mut self.system.torsion_forces {
+            self.diagnostics.twist_slips += torsion.accept(self.model, state);
+        }
+    }
+}
