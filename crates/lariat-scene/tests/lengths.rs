@@ -1,5 +1,6 @@
 //! Cables by tension or sag instead of a length, sections by name, and graded elements.
 
+use lariat_ancf::Section;
 use lariat_scene::run::{self, Options};
 use lariat_scene::{Purpose, Scene};
 
@@ -45,7 +46,7 @@ fn a_section_may_be_a_rope_or_a_chain_by_name() {
     for (name, mass) in
         [("chain", 200.1), ("nylon", 5.8515), ("polyester", 6.7875), ("hmpe", 4.9572), ("wire_rope", 40.9)]
     {
-        let section = parsed(&format!("section = {{ {name} = 0.1 }}\n")).unwrap().cables[0].section;
+        let section = *parsed(&format!("section = {{ {name} = 0.1 }}\n")).unwrap().cables[0].sections.first();
         assert!((section.mass_per_length / mass - 1.0).abs() < 1e-9, "{name}: {section:?}");
     }
     for wrong in [
@@ -57,6 +58,76 @@ fn a_section_may_be_a_rope_or_a_chain_by_name() {
     ] {
         assert!(parsed(wrong).is_err(), "{wrong}");
     }
+}
+
+/// A chain behind a rope hangs by its own weight and lengthens by its own stiffness, with kinks or
+/// without; where it begins may be a share of the length.
+///
+/// *Source.* Statics and Hooke's law of both pieces; `RopeMaterial`.
+#[test]
+fn pieces_of_a_cable_have_their_own_sections() {
+    let text = |from: &str, rest: &str| {
+        format!(
+            "name = \"line\"\nduration = 1.0\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [0.0, -100.0, 0.0]]\n\
+             elements = 20\nsection = {{ polyester = 0.05 }}\n{rest}\n[[cable.piece]]\nfrom = {from}\nsection = {{ chain = 0.02 }}\n\
+             [[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n"
+        )
+    };
+    let read = |from: &str, rest: &str| Scene::parse("scene.toml", &text(from, rest), &[], Purpose::Run).unwrap();
+    let scene = read("70.0", "");
+    assert_eq!(read("\"70 %\"", ""), scene);
+    let mut cable = scene.build_cable(0).unwrap();
+    assert!(cable.node_arc_lengths().contains(&70.0));
+    cable.equilibrium().unwrap();
+    let [rope, chain] = [10.0, 90.0].map(|s| *scene.cables[0].sections.at(s));
+    let weight = |section: &Section, length: f64| 9.81 * section.mass_per_length * length;
+    let (of_rope, of_chain) = (weight(&rope, 70.0), weight(&chain, 30.0));
+    let tension = cable.sample(0.0).unwrap().tension;
+    assert!((tension / (of_rope + of_chain) - 1.0).abs() < 1e-6, "{tension}");
+    let longer =
+        (of_chain + 0.5 * of_rope) * 70.0 / rope.axial_stiffness + 0.5 * of_chain * 30.0 / chain.axial_stiffness;
+    let end = cable.node_position(cable.nodes() - 1);
+    assert!((end.y + 100.0 + longer).abs() < 1e-4 * longer, "{end:?} {longer}");
+    assert!((scene.cables[0].mass() * 9.81 / (of_rope + of_chain) - 1.0).abs() < 1e-12);
+
+    let kinked = read("70.0", "kinks = [50.0, 80.0]");
+    let starts = |part: usize| -> Vec<(f64, bool)> {
+        kinked.cables[part].sections.iter().map(|(from, section)| (*from, *section == chain)).collect()
+    };
+    assert_eq!([0, 1, 2].map(starts), [vec![(0.0, false)], vec![(0.0, false), (20.0, true)], vec![(0.0, true)]]);
+}
+
+/// What a piece cannot be is refused by name: out of order, off the cable, with a sag, and with
+/// numbers that follow from one section.
+#[test]
+fn pieces_without_a_meaning_are_refused() {
+    let stiffness = "axial_stiffness = 2.0e6\nbending_stiffness = 0.1\nmass_per_length = 1.5\n";
+    let piece = |from: &str| format!("[[cable.piece]]\nfrom = {from}\n{stiffness}");
+    let own = "section = { round = 0.02 }\ndensity = 1000.0\nyoungs_modulus = 1e9\n";
+    assert!(parsed(&format!("{own}{}{}", piece("10.0"), piece("20.0"))).is_ok());
+    for (rest, says) in [
+        (format!("{own}{}{}", piece("20.0"), piece("20.0")), "cable.line.piece.1.from"),
+        (format!("{own}{}", piece("0.0")), "cable.line.piece.0.from"),
+        (format!("{own}{}", piece("40.0")), "cable.line.piece.0.from"),
+        (format!("{own}{}", piece("41.0")), "is not on the cable"),
+        (format!("sag = 0.5\n{own}{}", piece("10.0")), "give the length"),
+        (format!("{own}damping = {{ rope = \"wire-rope\" }}\n{}", piece("10.0")), "has several"),
+        (format!("{own}torsion = {{ poisson = 0.3 }}\n{}", piece("10.0")), "has several"),
+        (format!("{own}drag = {{ fluid_density = 1000.0 }}\n{}", piece("10.0")), "drag.diameter: missing"),
+        (format!("{own}contact = {{}}\n{}", piece("10.0")), "contact.radius: missing"),
+        (format!("{own}[[cable.piece]]\nfrom = 10.0\n"), "piece.0.section: missing"),
+        (format!("{own}[[cable.piece]]\n{stiffness}"), "piece.0.from: missing"),
+    ] {
+        let error = parsed(&rest).unwrap_err();
+        assert!(error.contains(says), "{rest}: {error}");
+    }
+    let sheave = format!(
+        "{own}{}[[sheave]]\ncable = \"line\"\nat = 10.0\nbody = \"world\"\nanchor = [10.0, 0.0, 0.0]\n",
+        piece("10.0")
+    );
+    let text = scene(&sheave).replace("engine = \"none\"\n", "");
+    let error = Scene::parse("scene.toml", &text, &[], Purpose::Run).unwrap_err().to_string();
+    assert!(error.contains("would run over it"), "{error}");
 }
 
 /// Elements grow from the points that are named, by default both ends; `--set` changes one number of them, and what

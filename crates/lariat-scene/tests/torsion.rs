@@ -148,6 +148,67 @@ fn a_motor_of_a_scene_has_a_course() {
     }
 }
 
+/// Of a cable that no body holds the integrator may be another: it comes to where the discrete
+/// gradient does.
+///
+/// *Source.* The discrete gradient, whose torsion is other code.
+#[test]
+fn a_cable_by_itself_may_have_another_integrator() {
+    let text = r#"
+duration = 0.5
+engine = "none"
+
+[[cable]]
+name = "rope"
+points = [[0.0, 0.0, 0.0], [0.5, -0.2, 0.1], [1.0, 0.0, 0.0]]
+axial_stiffness = 200.0
+bending_stiffness = 0.03
+mass_per_length = 0.1
+elements = 6
+
+[cable.torsion]
+stiffness = 0.02
+initial_twist = 1.0
+end = { rate = 1.0, from = 0.0, until = 1.0 }
+
+[[attachment]]
+cable = "rope"
+at = "start"
+body = "world"
+kind = "clamp"
+
+[[attachment]]
+cable = "rope"
+at = "end"
+body = "world"
+kind = "clamp"
+
+[[probe]]
+name = "twist"
+torsion = "rope"
+
+[[probe]]
+name = "energy"
+energy = "all"
+"#;
+    let twists = |integrator: &str| {
+        let chosen = format!("elements = 6\nintegrator = {integrator}");
+        let (_, [twist, _]) = run_text(text, ["twist", "energy"], &[("elements = 6", chosen.as_str())]).unwrap();
+        println!("{integrator}: {:?}", twist.last());
+        twist[twist.len() - 1].clone()
+    };
+    let [gradient, esdirk, explicit] = [
+        "{ method = \"discrete-gradient\", substeps = 128 }",
+        "{ method = \"esdirk4\", tolerance = 1e-6 }",
+        "{ method = \"rkn4\", stable = 0.5 }",
+    ]
+    .map(twists);
+    for other in [&esdirk, &explicit] {
+        let apart = gradient.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 2e-2, "{gradient:?} {other:?}");
+    }
+}
+
 /// What cannot be right is an error at its key, or a warning.
 ///
 /// *Source.* The contract.

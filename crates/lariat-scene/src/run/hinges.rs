@@ -34,7 +34,7 @@ impl Hinge {
     pub fn note(&mut self, world: &World) {
         let cables = world.cables();
         let [before, behind] = self.kink;
-        let stiffness = world.scene.cables[behind].section.bending_stiffness;
+        let stiffness = world.scene.cables[behind].sections.first().bending_stiffness;
         let order = &world.order[world.scene.whole(behind)];
         // after a break the part before it is another
         let place = order.iter().position(|&part| part == behind).and_then(|k| k.checked_sub(1));

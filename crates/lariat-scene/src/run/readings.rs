@@ -4,7 +4,7 @@ use super::World;
 use super::balance::Terms;
 use crate::error::Error;
 use crate::physics::BodyState;
-use crate::scene::AttachmentScene;
+use crate::scene::{AttachmentScene, CableScene};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::OneStep;
 use lariat_ancf::{Cable, Energy, Momentum, Reaction, ReasonCounts, Vector3};
@@ -108,9 +108,9 @@ impl World {
             terms.rounding = physics.bodies_balance(&self.scene, self.time, &mut terms.bodies)?;
             terms.weight = physics.weight(&self.scene);
         }
-        let masses = self.scene.cables.iter().map(|cable| cable.section.mass_per_length * cable.length);
+        let masses = self.scene.cables.iter().map(CableScene::mass);
         terms.weight += self.scene.gravity.norm() * masses.sum::<f64>();
-        let stiffness = self.scene.cables.iter().map(|cable| cable.section.axial_stiffness * cable.length);
+        let stiffness = self.scene.cables.iter().map(|cable| cable.mean_of(|s| s.axial_stiffness) * cable.length);
         terms.stiffness = stiffness.sum();
         // the law has the work of gravity and loads on bodies, too
         let in_law = terms.bodies.iter().filter(|body| body.in_law);

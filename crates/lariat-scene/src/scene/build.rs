@@ -15,7 +15,6 @@ impl Scene {
             .name(self.name_of(index))
             .points(scene.points.iter().copied())
             .length(scene.length)
-            .section(scene.section)
             .rule(scene.rule)
             .effects(scene.effects.clone())
             .allow_rank_deficient()
@@ -23,6 +22,7 @@ impl Scene {
             .velocity(scene.velocity)
             .angular_velocity(scene.angular_velocity)
             .integrator(scene.integrator);
+        builder = scene.sections.iter().fold(builder, |builder, (from, section)| builder.section_from(*from, *section));
         builder = scene.mesh(builder);
         for attachment in self.attachments.iter().filter(|a| a.cable == index) {
             let at = At::ArcLength(attachment.arc_length);

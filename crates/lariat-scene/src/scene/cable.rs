@@ -6,12 +6,12 @@ use super::elements::{ELEMENTS, ElementsTable, Grading};
 use super::integrator::{self, IntegratorTable};
 use super::reel::{self, DrumScene, DrumTable, REEL};
 use super::references::{Position, arc_length};
+use super::sections::{self, PieceTable, SECTION, SectionForm, SectionKeys, Sections};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
-use crate::schema::{Choose, Kind, NOT_NEGATIVE, POSITION, POSITIVE, VECTOR, choice, parse_as, table};
+use crate::schema::{Kind, NOT_NEGATIVE, POSITION, POSITIVE, VECTOR, choice, parse_as, table};
 use lariat_ancf::{
-    At, AxialLaw, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, RopeMaterial, Rule, Section, Shape, Vector3,
-    Water,
+    At, AxialLaw, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, Rule, Section, Vector3, Water,
 };
 use serde::Deserialize;
 
@@ -63,12 +63,14 @@ table! {
         bending_stiffness: Option<f64> = ("required without `section`"), Kind::Number(NOT_NEGATIVE), "N m^2";
         /// Mass per unstretched length, with `axial_stiffness` and `bending_stiffness`, instead of `section`.
         mass_per_length: Option<f64> = ("required without `section`"), Kind::Number(POSITIVE), "kg/m";
+        /// Pieces with other sections, each up to the next one. Need `length`, or the drawn one.
+        piece: Vec<PieceTable> = ("none"), Kind::Tables(&PieceTable::TABLE);
         /// Force strategy.
         rule: Option<RuleTable> = ("`\"projected-T1\"` with `{ fidelity = \"game\" }`, else `\"projected-3\"`"), RULE;
         /// `true` runs a rule with zero-energy modes.
         allow_rank_deficient: bool = false, Kind::Flag;
-        /// Time integrator and step control. A cable with `contact`, `torsion`, a reel with `max_force` or a drum, or a sheave needs the method
-        /// `"discrete-gradient"`, and has `{ fidelity = "game" }` by default; with `{ fidelity =
+        /// Time integrator and step control. A cable with `contact`, a reel with `max_force` or a drum, a sheave, or `torsion` on a body, at a
+        /// junction or with a reel needs the method `"discrete-gradient"`, and one with any of them or `torsion` has `{ fidelity = "game" }` by default; with `{ fidelity =
         /// "engineering" }` it is stepped by that method to 1e-5 m per host step.
         integrator: IntegratorTable = { fidelity = "engineering" }, Kind::Table(&IntegratorTable::TABLE);
         /// Velocity of the start point.
@@ -79,74 +81,6 @@ table! {
     rest effects;
     plus EFFECTS;
     plus &[BREAK, REEL];
-}
-
-table! {
-    /// A solid section of one material, or a rope or chain by its nominal diameter, with mass, EA and no EI as catalogues have them
-    /// (`RopeMaterial` of lariat-ancf names the sources). The `axial_law` of a rope or chain by name is Hooke's, unless it has another one,
-    /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation.
-    keys SECTION("[cable.section]") {
-        /// Side of a square.
-        square = (), Kind::Number(POSITIVE), "m";
-        /// Diameter.
-        round = (), Kind::Number(POSITIVE), "m";
-        /// Outer and inner diameter, outer > inner >= 0.
-        tube = (), Kind::Numbers(&["outer", "inner"], NOT_NEGATIVE), "m";
-        /// Nominal diameter of a nylon rope.
-        nylon = (), Kind::Number(POSITIVE), "m";
-        /// Nominal diameter of a polyester rope.
-        polyester = (), Kind::Number(POSITIVE), "m";
-        /// Nominal diameter of a rope of high-modulus polyethylene.
-        hmpe = (), Kind::Number(POSITIVE), "m";
-        /// Nominal diameter of a steel wire rope, with its EI.
-        wire_rope = (), Kind::Number(POSITIVE), "m";
-        /// Bar diameter of a studless chain.
-        chain = (), Kind::Number(POSITIVE), "m";
-    }
-    choose Choose::ExactlyOne(&["square", "round", "tube", "nylon", "polyester", "hmpe", "wire_rope", "chain"]);
-}
-
-/// A section as a scene writes it.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SectionForm {
-    /// Side.
-    Square(f64),
-    /// Diameter.
-    Round(f64),
-    /// Outer and inner diameter.
-    Tube(f64, f64),
-    /// By name.
-    Nylon(f64),
-    /// By name.
-    Polyester(f64),
-    /// By name.
-    Hmpe(f64),
-    /// By name.
-    WireRope(f64),
-    /// By name.
-    Chain(f64),
-}
-
-/// A section as mechanics has it.
-enum Form {
-    Solid(Shape),
-    Rope(RopeMaterial, f64),
-}
-
-impl SectionForm {
-    fn form(self) -> Form {
-        match self {
-            SectionForm::Square(side) => Form::Solid(Shape::Square(side)),
-            SectionForm::Round(diameter) => Form::Solid(Shape::Round(diameter)),
-            SectionForm::Tube(outer, inner) => Form::Solid(Shape::Tube(outer, inner)),
-            SectionForm::Nylon(diameter) => Form::Rope(RopeMaterial::Nylon, diameter),
-            SectionForm::Polyester(diameter) => Form::Rope(RopeMaterial::Polyester, diameter),
-            SectionForm::Hmpe(diameter) => Form::Rope(RopeMaterial::Hmpe, diameter),
-            SectionForm::WireRope(diameter) => Form::Rope(RopeMaterial::WireRope, diameter),
-            SectionForm::Chain(diameter) => Form::Rope(RopeMaterial::Chain, diameter),
-        }
-    }
 }
 
 table! {
@@ -196,8 +130,8 @@ pub struct CableScene {
     pub nodes_at_loads: bool,
     /// Arc lengths in m of kinks, until it is divided there.
     pub kinks: Vec<f64>,
-    /// Section.
-    pub section: Section,
+    /// Sections along it.
+    pub sections: Sections,
     /// Force strategy.
     pub rule: Rule,
     /// Effects.
@@ -218,6 +152,18 @@ pub struct CableScene {
     pub angular_velocity: Vector3<f64>,
 }
 
+impl CableScene {
+    /// Returns the mean of something along it.
+    pub fn mean_of(&self, of: impl Fn(&Section) -> f64) -> f64 {
+        self.sections.mean(self.length, of)
+    }
+
+    /// Returns its mass in kg.
+    pub fn mass(&self) -> f64 {
+        self.mean_of(|section| section.mass_per_length) * self.length
+    }
+}
+
 /// Reads the cable at a path, and its drum as written.
 pub(super) fn read(
     doc: &Document<'_>,
@@ -235,28 +181,29 @@ pub(super) fn read(
     }
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let rule = rule(doc, &at.key("rule"), &row, integrator.rule())?;
-    let section = section(doc, at, &row)?;
-    let length = length(doc, at, &row, (section, rule, gravity), (drawn, water))?;
+    let length = length(doc, at, &row, (rule, gravity), (drawn, water))?;
+    let sections = sections::read(doc, at, (keys(&row), &row.piece), length)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements.count()))?;
     let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
         None => (None, false, None),
     };
-    let context = effects::Context { section: &section, rule, length, water };
+    let is_rope = sections::are_ropes(keys(&row), &row.piece);
+    let context = effects::Context { sections: &sections, rule, length, water };
     let mut effects = effects::read(doc, at, row.effects, &context)?;
-    if is_rope(row.section) && effects.axial_law.is_none() {
+    if is_rope && effects.axial_law.is_none() {
         effects.axial_law = AxialLaw::of_elongation(&effects, rule);
     }
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
-    let needs = [
-        ("contact", effects.contact.is_some()),
-        ("torsion", effects.torsion.is_some()),
-        ("a reel with a clutch", slips),
-    ];
-    for (what, _) in needs.iter().filter(|(_, is)| *is) {
-        integrator = integrator::by_discrete_gradient(doc, &at.key("integrator"), integrator, what)?;
+    let key = at.key("integrator");
+    if effects.torsion.is_some() && (!doc.contains(&key) || integrator == Fidelity::Engineering) {
+        integrator = integrator::by_discrete_gradient(doc, &key, integrator, "torsion")?;
     }
-    integrator::check_tolerance(doc, &at.key("integrator").key("tolerance"), &row.integrator, length)?;
+    let needs = [("contact", effects.contact.is_some()), ("a reel with a clutch", slips)];
+    for (what, _) in needs.iter().filter(|(_, is)| *is) {
+        integrator = integrator::by_discrete_gradient(doc, &key, integrator, what)?;
+    }
+    integrator::check_tolerance(doc, &key.key("tolerance"), &row.integrator, length)?;
     let kink = |(k, point): (usize, &Position)| arc_length(doc, &at.key("kinks").item(k), *point, length);
     let kinks = row.kinks.iter().flatten().enumerate().map(kink).collect::<Result<_, _>>()?;
     let cable = CableScene {
@@ -268,7 +215,7 @@ pub(super) fn read(
         grading: row.elements.grading(doc, &at.key("elements"), length)?,
         nodes_at_loads: false,
         kinks,
-        section,
+        sections,
         rule,
         effects,
         breaking,
@@ -288,7 +235,7 @@ fn length(
     doc: &Document<'_>,
     at: &KeyPath,
     row: &CableTable,
-    (section, rule, gravity): (Section, Rule, Vector3<f64>),
+    (rule, gravity): (Rule, Vector3<f64>),
     (drawn, water): (f64, Option<&Water>),
 ) -> Result<f64, Error> {
     let given = [("length", row.length), ("pretension", row.pretension), ("sag", row.sag)];
@@ -300,16 +247,20 @@ fn length(
     if key == "length" {
         return Ok(value);
     }
+    if !row.piece.is_empty() {
+        return Err(doc.conflict(&at.key(key), "which piece has what length is not known: give the length"));
+    }
+    let sections = sections::read(doc, at, (keys(row), &[]), drawn)?;
     let mut rest = row.effects.clone();
     breaking::read(doc, at, &mut rest, (drawn, row.elements.count()))?;
     reel::read(doc, at, &mut rest)?;
-    let context = effects::Context { section: &section, rule, length: drawn, water };
+    let context = effects::Context { sections: &sections, rule, length: drawn, water };
     let mut effects = effects::read(doc, at, rest, &context)?;
-    if is_rope(row.section) && effects.axial_law.is_none() {
+    if sections::are_ropes(keys(row), &[]) && effects.axial_law.is_none() {
         effects.axial_law = AxialLaw::of_elongation(&effects, rule);
     }
-    let builder =
-        Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize).section(section);
+    let builder = Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize);
+    let builder = builder.section(*sections.first());
     let builder =
         builder.rule(rule).effects(effects).allow_rank_deficient().gravity(gravity).fix(At::Start).fix(At::End);
     let builder = builder.name(row.name.as_str());
@@ -317,43 +268,10 @@ fn length(
     builder.build().map(|cable| cable.length()).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
 }
 
-/// Returns whether a section is that of a rope or chain by name, whose EA is force over elongation.
-fn is_rope(section: Option<SectionForm>) -> bool {
-    section.is_some_and(|section| matches!(section.form(), Form::Rope(..)))
-}
-
-fn section(doc: &Document<'_>, at: &KeyPath, row: &CableTable) -> Result<Section, Error> {
-    let stiffness = [
-        ("axial_stiffness", row.axial_stiffness),
-        ("bending_stiffness", row.bending_stiffness),
-        ("mass_per_length", row.mass_per_length),
-    ];
-    let material = [("density", row.density), ("youngs_modulus", row.youngs_modulus)];
-    let given = |keys: &[(&'static str, Option<f64>)]| keys.iter().find(|(_, x)| x.is_some()).map(|(key, _)| *key);
-    let required = |(key, value): (&str, Option<f64>)| value.ok_or_else(|| doc.missing(&at.key(key)));
-    let invalid = |path: &str| {
-        let at = path.split('.').fold(at.clone(), |at, key| at.key(key));
-        move |error: lariat_ancf::Error| doc.conflict(&at, error.to_string())
-    };
-    match (row.section.map(SectionForm::form), given(&stiffness), given(&material)) {
-        (None, None, _) => Err(doc.missing(&at.key("section"))),
-        (None, Some(_), Some(key)) => Err(doc.conflict(&at.key(key), format!("{key} has no meaning without section"))),
-        (Some(_), Some(key), _) => Err(doc.conflict(&at.key(key), format!("both section and {key} are given"))),
-        (None, Some(_), None) => {
-            let [ea, ei, m] = stiffness.map(required);
-            Section::from_stiffness(ea?, ei?, m?).map_err(invalid("axial_stiffness"))
-        }
-        (Some(Form::Rope(..)), None, Some(key)) => {
-            Err(doc.conflict(&at.key(key), format!("{key} is that of the rope or chain that `section` names")))
-        }
-        (Some(Form::Rope(material, diameter)), None, None) => material.section(diameter).map_err(invalid("section")),
-        (Some(Form::Solid(shape)), None, _) => {
-            let [density, modulus] = material.map(required);
-            let density = density?;
-            let key = if matches!(shape, Shape::Tube(..)) { "section.tube" } else { "section" };
-            Section::new(shape, modulus?, density).map_err(invalid(key))
-        }
-    }
+/// Returns the keys by which the cable itself gives a section.
+fn keys(row: &CableTable) -> SectionKeys {
+    let &CableTable { section, density, youngs_modulus, axial_stiffness, bending_stiffness, mass_per_length, .. } = row;
+    SectionKeys { section, density, youngs_modulus, axial_stiffness, bending_stiffness, mass_per_length }
 }
 
 fn rule(doc: &Document<'_>, at: &KeyPath, row: &CableTable, default: Rule) -> Result<Rule, Error> {

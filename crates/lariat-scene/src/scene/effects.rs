@@ -4,6 +4,7 @@
 //! rest shape of the whole cable) it is written out before serde reads it.
 
 use super::flow::{self, FLOW};
+use super::sections::Sections;
 use super::water;
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
@@ -19,14 +20,24 @@ use toml::Value;
 
 /// What effects need to know of their cable.
 pub(super) struct Context<'c> {
-    /// Section.
-    pub section: &'c Section,
+    /// Sections.
+    pub sections: &'c Sections,
     /// Force strategy.
     pub rule: Rule,
     /// Unstretched length in m.
     pub length: f64,
     /// Water of the scene.
     pub water: Option<&'c Water>,
+}
+
+impl Context<'_> {
+    /// Returns the section of the cable, for a number at a path that follows from one.
+    fn section(&self, doc: &Document<'_>, at: &KeyPath) -> Result<&Section, Error> {
+        if self.sections.is_uniform() {
+            return Ok(self.sections.first());
+        }
+        Err(doc.conflict(at, "it follows from one section, and the cable has several: give the numbers"))
+    }
 }
 
 /// An effect as a scene writes it. Every effect of the list of the mechanics is one.
@@ -114,7 +125,7 @@ impl SceneEffect for Damping {
                 }
             }
             damping = rope
-                .damping(cable.section, cable.length)
+                .damping(cable.section(doc, &at.key("rope"))?, cable.length)
                 .map_err(|error| doc.conflict(&at.key("rope"), error.to_string()))?;
             if cable.rule.bending == BendingRule::None {
                 damping.bending = 0.0;
@@ -169,10 +180,10 @@ impl SceneEffect for Drag {
     }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
-        match self.diameter.or(cable.section.diameter) {
-            Some(_) => Ok(()),
-            None => Err(doc.missing(&at.key("diameter"))),
+        if self.diameter.is_some() || cable.sections.all(|section| section.diameter.is_some()) {
+            return Ok(());
         }
+        Err(doc.missing(&at.key("diameter")))
     }
 }
 
@@ -204,10 +215,10 @@ impl SceneEffect for Buoyancy {
     }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
-        match self.area.or(cable.section.outer_area) {
-            Some(_) => Ok(()),
-            None => Err(doc.missing(&at.key("area"))),
+        if self.area.is_some() || cable.sections.all(|section| section.outer_area.is_some()) {
+            return Ok(());
         }
+        Err(doc.missing(&at.key("area")))
     }
 }
 
@@ -327,7 +338,7 @@ impl SceneEffect for LineLoads {
 
 table! {
     /// Torsion of an isotropic cable: one torque between two clamps that hold the spin; a ball holds none. By GJ, or by a Poisson number
-    /// for a solid round section or a round tube. It needs the integrator `discrete-gradient`. An eye that
+    /// for a solid round section or a round tube. On bodies and with reels it needs the integrator `discrete-gradient`. An eye that
     /// is clamped holds the spin, and the twist of the cable that is out.
     struct TorsionTable("[cable.torsion]") {
         /// Torsional stiffness GJ.
@@ -397,7 +408,7 @@ impl SceneEffect for Torsion {
             return Err(doc.conflict(&at.key("poisson"), "both a stiffness and a Poisson number are given"));
         }
         let mut torsion = match (table.stiffness, table.poisson) {
-            (None, Some(poisson)) => Torsion::round(cable.section.bending_stiffness, poisson)
+            (None, Some(poisson)) => Torsion::round(cable.section(doc, &at.key("poisson"))?.bending_stiffness, poisson)
                 .map_err(|error| doc.conflict(&at.key("poisson"), error.to_string()))?,
             (stiffness, _) => Torsion::new(stiffness.unwrap_or_default()),
         };
@@ -480,10 +491,10 @@ impl SceneEffect for Contact {
     }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
-        match self.radius.or(cable.section.diameter) {
-            Some(_) => Ok(()),
-            None => Err(doc.missing(&at.key("radius"))),
+        if self.radius.is_some() || cable.sections.all(|section| section.diameter.is_some()) {
+            return Ok(());
         }
+        Err(doc.missing(&at.key("radius")))
     }
 }
 

@@ -1,5 +1,6 @@
 //! `integrator`: the time integrator of a cable and its step control.
 
+use super::{AttachmentScene, Scene};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, DISSIPATION, Kind, MANY, POSITIVE, SHARE, parse_as, table};
@@ -126,4 +127,21 @@ pub(super) fn by_discrete_gradient(
             "{ fidelity = \"game\" } or \"engineering\", or the method \"discrete-gradient\" with tolerance, substeps, max_step or adaptive",
         )),
     }
+}
+
+/// Refuses torsion by another method than the discrete gradient where a cable is not by itself.
+pub(super) fn check_torsion(doc: &Document<'_>, scene: &mut Scene) -> Result<(), Error> {
+    for c in 0..scene.cables.len() {
+        let on_body = |attachment: &AttachmentScene| attachment.cable == c && attachment.body.is_some();
+        let by_itself = scene.cables[c].reel.is_none()
+            && scene.cables[c].drum.is_none()
+            && scene.tied(c).next().is_none()
+            && !scene.attachments.iter().any(on_body);
+        if scene.cables[c].effects.torsion.is_some() && !by_itself {
+            let key = KeyPath::root("cable").item(scene.whole(c)).key("integrator");
+            let what = "torsion on a body, at a junction or with a reel";
+            scene.cables[c].integrator = by_discrete_gradient(doc, &key, scene.cables[c].integrator, what)?;
+        }
+    }
+    Ok(())
 }

@@ -99,6 +99,7 @@ fn split(scene: &mut Scene, c: usize, kinks: &[f64]) {
             grading: grading(&own, [from, to]),
             velocity: own.velocity + own.angular_velocity.cross(&arm),
             effects: of_part(&own, from, to),
+            sections: own.sections.between([from, to]),
             reel: own.reel.clone().filter(|_| if own.reel_at_start { k == 0 } else { k == last }),
             points,
             ..own.clone()

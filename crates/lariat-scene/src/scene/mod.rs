@@ -37,6 +37,7 @@ mod plausibility;
 pub mod probe;
 pub mod reel;
 mod references;
+pub mod sections;
 pub mod sheave;
 pub mod water;
 
@@ -273,6 +274,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     }
     // what is tied at a kink is in its knot
     kinks::join(doc, &mut scene)?;
+    integrator::check_torsion(doc, &mut scene)?;
     for (i, row) in table.sheave.into_iter().enumerate() {
         let row = sheave::read(doc, &mut scene, i, row, along[i].take())?;
         scene.sheaves.push(row);

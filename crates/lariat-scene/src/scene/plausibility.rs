@@ -13,7 +13,7 @@ use super::load::LoadScene;
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::warning::sizes;
-use lariat_ancf::{Cable, Flow, Vector3, Water};
+use lariat_ancf::{Cable, Flow, Section, Vector3, Water};
 use std::f64::consts::{PI, TAU};
 
 /// Largest axial strain, on the mean of a cable, that its drawn corners may make.
@@ -119,8 +119,8 @@ impl Scene {
     fn large_loads(&self) -> impl Iterator<Item = Warning> {
         self.loads.iter().filter_map(|LoadScene { cable, load, .. }| {
             let cable = &self.cables[*cable];
-            let (force_n, axial_stiffness_n) = (load.force.norm(), cable.section.axial_stiffness);
             let (name, at_m) = (|| cable.name.clone(), load.arc_length);
+            let (force_n, axial_stiffness_n) = (load.force.norm(), cable.sections.at(at_m).axial_stiffness);
             let large = force_n > LOAD * axial_stiffness_n;
             large.then(|| Warning::LargeLoad { cable: name(), at_m, force_n, axial_stiffness_n })
         })
@@ -159,7 +159,7 @@ impl Scene {
                 (above, whole) = (above + share * length, whole + length);
             }
             let share = above / whole;
-            let area = buoyancy.area.or(cable.section.outer_area)?;
+            let area = cable.mean_of(|section| buoyancy.area.or(section.outer_area).unwrap_or(0.0));
             let added_kg = buoyancy.added_mass * buoyancy.fluid_density * area * cable.length;
             (share > IN_AIR).then(|| Warning::AddedMassInAir { cable: cable.name.clone(), share, added_kg })
         })
@@ -191,11 +191,11 @@ impl Scene {
         if segments.len() < 2 || drawn.effects.rest_shape.is_some() {
             return None;
         }
-        let stiffness = drawn.section.axial_stiffness * drawn.length;
+        let stiffness = drawn.mean_of(|section| section.axial_stiffness) * drawn.length;
         let stretch = segments.iter().map(Vector3::norm).sum::<f64>() / drawn.length;
         let (slack, stretch) = (stretch < 1.0 - 1e-9, stretch.max(1.0));
         let even = 0.125 * stiffness * (stretch * stretch - 1.0).powi(2);
-        let mass = drawn.section.mass_per_length * drawn.length;
+        let mass = drawn.mass();
         let energy = cable.energy();
         let energy_j = energy.axial - even;
         let other = energy.kinetic + even + mass * self.gravity.norm() * drawn.length;
@@ -273,17 +273,19 @@ fn radius(body: &BodyScene) -> f64 {
 
 /// Returns what the mechanics say about the sizes of a cable.
 fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
-    let (name, section, length) = (&cable.name, &cable.section, cable.length);
+    let (name, length) = (&cable.name, cable.length);
     let drawn = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
     let damping = cable.effects.damping.as_ref().and_then(|damping| sizes::damping(name, damping));
     let element = cable.grading.as_ref().map_or(length / cable.elements as f64, |grading| grading.finest);
-    let shape = sizes::slack(name, length, drawn).into_iter().chain(sizes::elements(name, section, length, element));
-    sizes::warnings(name, section, length).chain(damping).chain(shape)
+    let of_section = move |(_, section): &(f64, Section)| -> Vec<_> {
+        sizes::warnings(name, section, length).chain(sizes::elements(name, section, length, element)).collect()
+    };
+    cable.sections.iter().flat_map(of_section).chain(damping).chain(sizes::slack(name, length, drawn))
 }
 
 /// Returns the warning about a radius of contact in another unit.
 fn thick_contact(cable: &CableScene) -> Option<Warning> {
-    let (length_m, diameter_m) = (cable.length, cable.section.diameter);
+    let (length_m, diameter_m) = (cable.length, cable.sections.first().diameter);
     let radius_m = cable.effects.contact.as_ref()?.radius?;
     let thick = 2.0 * radius_m > CONTACT[1].min(CONTACT[0] * length_m)
         || diameter_m.is_some_and(|diameter| radius_m > SHEATH * diameter);

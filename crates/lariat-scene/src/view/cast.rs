@@ -41,7 +41,7 @@ impl Cast {
     /// Returns that of a scene.
     pub fn of(scene: &Scene) -> Self {
         let whole = &scene.cables[..scene.parts.len()];
-        let cables = whole.iter().map(|c| CableLook { name: c.name.clone(), diameter: c.section.diameter });
+        let cables = whole.iter().map(|c| CableLook { name: c.name.clone(), diameter: c.sections.first().diameter });
         let bodies =
             scene.bodies.iter().map(|b| BodyLook { name: b.name.clone(), kind: b.kind, shape: b.shape.clone() });
         Cast {

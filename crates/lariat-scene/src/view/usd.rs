@@ -86,8 +86,12 @@ fn curve<'a>(
             format!(".timeSamples = {{\n{}        }}", lines.collect::<String>())
         }
     };
-    let section = &cable.section;
-    let width = section.diameter.unwrap_or(WIDTH);
+    let width = cable.sections.first().diameter.unwrap_or(WIDTH);
+    let [axial, bending, mass] = [
+        cable.mean_of(|section| section.axial_stiffness),
+        cable.mean_of(|section| section.bending_stiffness),
+        cable.mean_of(|section| section.mass_per_length),
+    ];
     let _ = write!(
         text,
         "    def BasisCurves \"{name}\"\n    {{\n        uniform token type = \"cubic\"\n        uniform token basis = \"bezier\"\n        \
@@ -95,7 +99,7 @@ fn curve<'a>(
          interpolation = \"constant\"\n        )\n        point3f[] points.timeSamples = {{\n{samples}        }}\n        \
          custom double lariat:axialStiffness = {}\n        custom double lariat:bendingStiffness = {}\n        \
          custom double lariat:massPerLength = {}\n        custom double lariat:length = {}\n    }}\n",
-        section.axial_stiffness, section.bending_stiffness, section.mass_per_length, length
+        axial, bending, mass, length
     );
 }
 

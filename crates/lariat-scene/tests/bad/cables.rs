@@ -378,7 +378,7 @@ fn overrides_are_applied_before_the_checks_and_named_in_errors() {
     let cable = &scene.cables[0];
     assert_eq!((cable.elements, cable.rule.to_string().as_str(), scene.dt), (20, "ST2", 0.02));
     assert_eq!(cable.integrator.integrator(f64::INFINITY).method.to_string(), "esdirk4");
-    assert_eq!(cable.section.diameter, Some(0.02));
+    assert_eq!(cable.sections.first().diameter, Some(0.02));
     for (set, fragments) in [
         ("cable.sling.elements=0", &["--set cable.sling.elements=0: cable.sling.elements: 0 is out of range"][..]),
         ("cable.sling.elements=many", &["--set cable.sling.elements=many: cable.sling.elements", "\"many\""]),

@@ -155,6 +155,13 @@ fn split(
             return Err(doc.conflict(&KeyPath::root("sheave").item(passage.row).key("at"), problem));
         }
     }
+    for (passage, ends) in passages.iter().zip(bounds.windows(2)) {
+        let [on, off] = [ends[0], ends[1]].map(|part| own.sections.between(part));
+        if on.at(f64::INFINITY) != off.first() {
+            let problem = "a piece with another section begins on its wheel, and would run over it".to_string();
+            return Err(doc.conflict(&KeyPath::root("sheave").item(passage.row).key("at"), problem));
+        }
+    }
     let free: f64 = bounds.iter().map(|[from, to]| to - from).sum();
     let mut positions = Vec::new();
     for (k, (Drawn(points), [from, to])) in drawn.into_iter().zip(&bounds).enumerate() {
@@ -167,6 +174,7 @@ fn split(
             elements: (share.round() as usize).max(LEAST_ELEMENTS),
             velocity: own.velocity + own.angular_velocity.cross(&arm),
             effects: of_part(&own, *from, *to),
+            sections: own.sections.between([*from, *to]),
             reel,
             lead: if k == 0 { 0.0 } else { from - bounds[k - 1][1] },
             points,
