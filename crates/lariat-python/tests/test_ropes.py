@@ -33,6 +33,30 @@ def test_a_rope_in_one_call_carries_its_load() -> None:
             world.add_rope([0, 0, 0], [0, -2, 0], SECTION, **bad)  # type: ignore[arg-type]
 
 
+def test_a_kink_lets_a_limp_rope_have_a_corner() -> None:
+    """With a kink at its load a limp rope without weight hangs in two straight halves (statics); without, it is round there."""
+    depth = []
+    for kinked in (True, False):
+        world = lariat.World(gravity=[0, 0, 0])
+        section = lariat.Section(1e5, 0.0, 0.1)
+        rope = world.add_rope([0, 0, 0], [4, 0, 0], section, length=5.0, elements=8).cable
+        if kinked:
+            rest, junction = world.add_kink(rope, 2.5)
+            assert (rope.length, rest.length) == pytest.approx((2.5, 2.5))
+            assert [s for _, s in world.junction(junction)] == pytest.approx([2.5, 0.0])
+        rope.add_load(2.5, [0, -100, 0])
+        assert world.equilibrium()
+        depth.append(rope.sample(2.5).position[1])
+        if not kinked:
+            for where in (0.0, 5.0):
+                with pytest.raises(errors.Error):
+                    world.add_kink(rope, where)
+    # each half carries 100/(2 sin a), sin a = 1.5/2.5
+    half = 2.5 * (1 + 100 / 1.2 / 1e5)
+    assert depth[0] == pytest.approx(-np.sqrt(half**2 - 4), rel=1e-5)
+    assert depth[1] - depth[0] > 1e-3
+
+
 def test_a_junction_is_left() -> None:
     world = lariat.World(sleep_speed=0.0)
     ropes = [world.add_rope([x, 0, 0], [0, -1, 0], SECTION).cable for x in (-1.0, 0.0, 1.0)]

@@ -696,6 +696,12 @@ class World:
         any. Returns the number of the junction; that of one of the points, if it is tied already. Raises GapTooLongError,
         AlreadyAttachedError, NoCableError, OutOfRangeError."""
 
+    def add_kink(self, cable: Cable, at: Place) -> tuple[Cable, int]:
+        """Frees the slope of a cable at a point between its ends, on both sides, as a hinge does: where a point load or a junction bends a
+        cable that is limp, sqrt(EI/T) far below an element. The cable becomes two that share the point; ``cable`` keeps the part before it.
+        Returns the other part and the number of the junction of both. No moment and no torque goes through it. Raises NoCableError,
+        AlreadyAttachedError, OutOfRangeError, NotWithReelError."""
+
     def leave(self, junction: int, cable: Cable) -> None:
         """Unties a cable from a junction; one with a single point left ends. Raises NoJunctionError, NoCableError."""
 

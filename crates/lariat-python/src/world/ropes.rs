@@ -27,6 +27,14 @@ impl Contents {
     fn junction(&self, number: usize) -> Result<JunctionHandle, Raise> {
         numbered(&self.junctions, number, "junction", "NoJunctionError")
     }
+
+    /// Returns the number of a junction, a new one if it has none.
+    fn number_of_junction(&mut self, handle: JunctionHandle) -> usize {
+        self.junctions.iter().position(|own| *own == handle).unwrap_or_else(|| {
+            self.junctions.push(handle);
+            self.junctions.len() - 1
+        })
+    }
 }
 
 #[pymethods]
@@ -88,14 +96,24 @@ impl World {
         let gap = gap.map_or(Gap::Close, Gap::Refuse);
         let joined = self.0.compute(py, |contents| {
             let handle = contents.set.join_with_gap(ends.0, ends.1, gap)?;
-            Ok::<_, lariat_rapier::Error>(contents.junctions.iter().position(|own| *own == handle).unwrap_or_else(
-                || {
-                    contents.junctions.push(handle);
-                    contents.junctions.len() - 1
-                },
-            ))
+            Ok::<_, lariat_rapier::Error>(contents.number_of_junction(handle))
         });
         joined.map_err(raise)
+    }
+
+    /// Frees the slope of a cable at a point between its ends, on both sides, as a hinge does: where
+    /// a point load or a junction bends a cable that is limp, sqrt(EI/T) far below an element. The
+    /// cable becomes two that share the point; ``cable`` keeps the part before it. Returns the other
+    /// part and the number of the junction of both. No moment and no torque goes through it. Raises
+    /// NoCableError, AlreadyAttachedError, OutOfRangeError, NotWithReelError.
+    fn add_kink(&self, py: Python<'_>, cable: &Cable, at: Place) -> PyResult<(Cable, usize)> {
+        let handle = cable.handle_in(&self.0)?;
+        let added = self.0.compute(py, |contents| {
+            let (behind, junction) = contents.set.add_kink(handle, at.0)?;
+            Ok::<_, lariat_rapier::Error>((behind, contents.number_of_junction(junction)))
+        });
+        let (behind, junction) = added.map_err(raise)?;
+        Ok((self.cable(behind), junction))
     }
 
     /// Unties a cable from a junction; one with a single point left ends. Raises NoJunctionError,
