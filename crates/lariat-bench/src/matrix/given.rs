@@ -28,9 +28,15 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
         let elements = resolution.elements_of(draft.elements, draft.elements);
         let mut scene = Scene::new(STEP / f64::from(resolution.parts), false);
         scene.add_meshed(&draft, elements, Some(Fidelity::Custom(resolution.integrator())))?;
+        if feature == Feature::Statics {
+            scene.set.equilibrium(&mut scene.physics)?;
+        }
         while scene.time < DURATION - 0.25 * STEP {
             for _ in 0..resolution.parts {
                 scene.step()?;
+            }
+            if feature == Feature::Snapshot && (scene.time - 0.5 * DURATION).abs() < 0.5 * STEP {
+                scene.save_and_restore()?;
             }
             record.frame(scene.time);
             scene.set.iter().for_each(|(_, cable)| {
@@ -46,7 +52,7 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
         Err(error) => return Err(Ended::Refused(error.to_string())),
     };
     if proof.claim.outcome != Outcome::Proven {
-        // told, and no claim
+        // told, and no claim: nothing is measured
         return Ok(Vec::new());
     }
     // what engineering is for contact and reels
@@ -54,6 +60,9 @@ pub fn run(feature: Feature) -> Result<Vec<Check>, Ended> {
     let mut finer = Scene::new(STEP / 8.0, false);
     let failed = |fault: Fault| Ended::Failed(0.0, format!("the finer run: {fault}"));
     finer.add_meshed(&draft, FINER * draft.elements, Some(fine)).map_err(failed)?;
+    if feature == Feature::Statics {
+        finer.set.equilibrium(&mut finer.physics).map_err(|error| failed(error.into()))?;
+    }
     finer.run_to(DURATION).map_err(failed)?;
     let off = apart(&proof.world, &finer.positions());
     Ok(vec![Check::at_most("off what is claimed, m", off, ASKED, "a finer run")])

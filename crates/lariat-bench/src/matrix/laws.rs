@@ -19,6 +19,7 @@
 
 use super::draft::Draft;
 use super::feature::{Feature, Pair};
+use super::limits;
 use super::scene::{Fault, Scene};
 use crate::stability::outcome::Check;
 use lariat_ancf::Vector3;
@@ -27,8 +28,10 @@ use lariat_ancf::Vector3;
 pub const STEP: f64 = 1.0 / 60.0;
 /// Simulated time in s.
 pub const DURATION: f64 = 0.5;
+/// The quantity of the law of finer runs.
+pub(super) const FINER_RUN: &str = "difference from a finer run";
 /// How many times shorter the host step of the finer run is.
-const FINER: f64 = 8.0;
+pub(super) const FINER: f64 = 8.0;
 /// Distance in m of two scenes that do not act on each other.
 const APART: f64 = 12.0;
 
@@ -38,7 +41,7 @@ const MADE: f64 = 0.01;
 /// Largest change of momentum, as a share: bodies have single precision.
 const MOMENTUM: f64 = 1e-4;
 /// Largest difference from the finer run, as a share of how far anything moved.
-const FINE: f64 = 0.05;
+pub(super) const FINE: f64 = 0.05;
 /// Least motion in m that differences are compared with: 5 % of it are the 8.8e-3 m by which
 /// fidelity `game` is documented to miss a payload that swings.
 const LEAST_MOTION: f64 = 0.176;
@@ -145,7 +148,11 @@ pub fn together(features: &[Feature], plan: Plan) -> Result<Vec<Check>, Ended> {
     // a rope that shatters has other parts in each run, and one centre of mass
     let same = end.len() == fine.len();
     let difference = if same { apart(&end, &fine) } else { (scene.centre() - finer.centre()).norm() } / moved;
-    checks.push(Check::at_most("difference from a finer run", difference, FINE, "the same scene at dt/8"));
+    let finer = Check::at_most(FINER_RUN, difference, FINE, "the same scene at dt/8");
+    if same && !finer.holds() {
+        checks.extend(limits::measure(&draft, plan, &fine, moved)?);
+    }
+    checks.push(finer);
     Ok(checks)
 }
 

@@ -1,7 +1,10 @@
 //! Pairs that are known to be refused without a reason, or wrong, [as others](crate::misses).
 
+use super::laws::FINER_RUN;
+use super::limits;
 use super::run::{Outcome, Row};
 use crate::misses;
+use crate::stability::outcome::Check;
 use crate::table::{Format, Table, shown};
 use serde::Deserialize;
 
@@ -28,7 +31,9 @@ pub fn of(row: &Row) -> Vec<Miss> {
     match &row.outcome {
         outcome if outcome.is_good() => Vec::new(),
         Outcome::Wrong(checks) => {
-            let each = checks.iter().map(|check| miss(check.quantity, Some(check.value), String::new()));
+            let why =
+                |check: &Check| if check.quantity == FINER_RUN { limits::told(&row.checks) } else { String::new() };
+            let each = checks.iter().map(|check| miss(check.quantity, Some(check.value), why(check)));
             each.collect()
         }
         outcome => vec![miss(outcome.name(), None, outcome.details())],

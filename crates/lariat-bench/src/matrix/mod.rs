@@ -5,6 +5,7 @@
 //! | [`feature`] | the features, and their pairs |
 //! | [`draft`], [`scene`] | the drawing of a scene, and the world that it becomes |
 //! | [`laws`] | what must hold: energy, momentum, snapshots, a finer run, parts that do not interact |
+//! | [`limits`] | why a scene differs from its finer run |
 //! | [`sleep`], [`given`] | the features beside sleep, and beside a given error |
 //! | [`run`] | runs a pair, and judges it |
 //! | [`reasons`] | why pairs are refused |
@@ -15,6 +16,7 @@ pub mod draft;
 pub mod feature;
 pub mod given;
 pub mod laws;
+pub mod limits;
 pub mod misses;
 pub mod page;
 pub mod reasons;

@@ -22,6 +22,8 @@ account says the same.\n\
 - *Statics.* A scene that starts in equilibrium, and has nothing that moves, rests within 1e-5 m.\n\
 - *Sleep.* A weight sleeps on its rope, the feature changes after 6 s, and all is where it is in a world that may not sleep, to 1.5e-3 m.\n\
 - *Given error.* What a run to a given error claims holds against a finer run, or it is told that it claims nothing.\n\n\
+Of a pair that differs from its finer run it is told what is left at an eighth of the step, and by how much runs part whose velocities \
+differ by 1e-9 m/s.\n\n\
 A pair that is refused without a reason of physics is a miss. With a drum, energy is judged by the run's own account alone: what a drum \
 winds up has no entry in the sum. The list of features is checked against the lists of effects and of terms of the \
 code, so that a new one fails a test until it is in the matrix.";
@@ -40,7 +42,7 @@ pub fn page(rows: &[Row], machine: &str, command: &str) -> (String, Vec<Section>
     );
     let mut matrix = Section::new("Matrix");
     matrix
-        .text("`+` right, `r` excluded for a reason, `x` refused without one, `!` a law is missed or the run failed.");
+        .text("`+` right, `r` excluded for a reason, `x` refused without one, `o` nothing was measured, `!` a law is missed or the run failed.");
     matrix.text(drawn(rows));
     matrix.data(all(rows));
     let mut reasons = Section::new("Excluded for a reason");
@@ -72,6 +74,7 @@ fn drawn(rows: &[Row]) -> String {
             Some(Outcome::Right) => '+',
             Some(Outcome::Excluded(_)) => 'r',
             Some(Outcome::Refused(_)) => 'x',
+            Some(Outcome::Unmeasured) => 'o',
             Some(_) => '!',
         }
     };

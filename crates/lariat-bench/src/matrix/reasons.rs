@@ -10,6 +10,11 @@ pub fn reason(pair: Pair) -> Option<&'static str> {
         _ if both(&[Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) => Some("a cable has one axial law"),
         _ if both(&[Feature::Drag, Feature::Current, Feature::Water]) => Some("a cable is in one fluid"),
         _ if both(&[Feature::Game, Feature::Engineering, Feature::Adaptive]) => Some("a cable has one integrator"),
+        _ if pair.has(Feature::ErrorTarget)
+            && both(&[Feature::ErrorTarget, Feature::Game, Feature::Engineering, Feature::Adaptive]) =>
+        {
+            Some("a run to a given error chooses the one integrator that a cable has")
+        }
         _ if both(&[Feature::Torsion, Feature::Stranded]) => Some("a cable has one law of torsion"),
         _ if pair.has(Feature::Stranded)
             && both(&[Feature::Stranded, Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) =>

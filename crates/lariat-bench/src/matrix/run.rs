@@ -12,6 +12,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub enum Outcome {
     /// All laws hold.
     Right,
+    /// It ran, and nothing was measured of it: no error was claimed.
+    Unmeasured,
     /// No cable has both, for a reason of physics.
     Excluded(&'static str),
     /// Refused without one, with the text of the error.
@@ -29,6 +31,7 @@ impl Outcome {
     pub fn name(&self) -> &'static str {
         match self {
             Outcome::Right => "right",
+            Outcome::Unmeasured => "nothing measured",
             Outcome::Excluded(_) => "excluded",
             Outcome::Refused(_) => "refused",
             Outcome::Failed(..) => "failed",
@@ -46,6 +49,7 @@ impl Outcome {
     pub fn details(&self) -> String {
         match self {
             Outcome::Right => String::new(),
+            Outcome::Unmeasured => "the run tells that it claims no error".to_string(),
             Outcome::Excluded(reason) => (*reason).to_string(),
             Outcome::Refused(text) | Outcome::Panicked(text) => text.clone(),
             Outcome::Failed(time, text) => format!("after {time:.3} s: {text}"),
@@ -72,6 +76,7 @@ pub fn run(pair: Pair) -> Row {
     }
     let measured = catch_unwind(AssertUnwindSafe(|| measure(pair)));
     let (outcome, checks) = match measured {
+        Ok(Ok(checks)) if checks.is_empty() => (Outcome::Unmeasured, checks),
         Ok(Ok(checks)) => {
             let failed: Vec<Check> = checks.iter().filter(|check| !check.holds()).cloned().collect();
             (if failed.is_empty() { Outcome::Right } else { Outcome::Wrong(failed) }, checks)

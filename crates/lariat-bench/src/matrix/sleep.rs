@@ -156,7 +156,7 @@ fn changes(feature: Feature) -> bool {
 /// # Errors
 /// [`Ended`].
 pub fn beside(feature: Feature) -> Result<Vec<Check>, Ended> {
-    let mut runs = Vec::new();
+    let (mut runs, mut restored) = (Vec::new(), None);
     for sleeps in [true, false] {
         let mut scene = Scene::new(STEP, false);
         if !sleeps {
@@ -164,11 +164,20 @@ pub fn beside(feature: Feature) -> Result<Vec<Check>, Ended> {
         }
         scene.add(&draft(feature)).map_err(|fault| Ended::Refused(fault.to_string()))?;
         let failed = |time: f64| move |fault: Fault| Ended::Failed(time, fault.to_string());
+        if feature == Feature::Statics {
+            let found = scene.set.equilibrium(&mut scene.physics);
+            found.map_err(|error| Ended::Refused(error.to_string()))?;
+        }
         scene.step().map_err(|fault| Ended::Refused(fault.to_string()))?;
         scene.run_to(CHANGE).map_err(failed(CHANGE))?;
         let before = scene.positions();
         let slept = scene.set.iter().map(|(handle, _)| handle).collect::<Vec<CableHandle>>();
         let slept = slept.iter().any(|cable| scene.set.is_asleep(*cable).unwrap_or(false));
+        if feature == Feature::Snapshot && sleeps {
+            scene.save_and_restore().map_err(failed(CHANGE))?;
+            let still = scene.set.iter().all(|(cable, _)| scene.set.is_asleep(cable).unwrap_or(false));
+            restored = Some(f64::from(u8::from(still)));
+        }
         change(&mut scene, feature).map_err(failed(CHANGE))?;
         scene.run_to(CHANGE + AFTER).map_err(failed(CHANGE + AFTER))?;
         runs.push((before, scene.positions(), slept));
@@ -177,6 +186,9 @@ pub fn beside(feature: Feature) -> Result<Vec<Check>, Ended> {
     let source = "the same world that may not sleep";
     let moved = if before.len() == awake.len() { apart(before, awake) } else { f64::INFINITY };
     let mut checks = vec![Check::at_most("difference from awake, m", apart(asleep, awake), DIFFERENCE, source)];
+    if let Some(restored) = restored {
+        checks.push(Check::between("sleeps when read back", restored, (1.0, 1.0), "it slept when it was saved"));
+    }
     if changes(feature) {
         checks.push(Check::between("motion after a change, m", moved, (MOVES, f64::INFINITY), "it changes"));
     } else {
