@@ -80,7 +80,7 @@
 //! at the end of the step alone, and a bound that does not see the depth.
 
 use super::law::{NormalLaw, Pressure};
-use crate::scales::contact::{DEPTHS, RESOLVED, RISE, SLOW};
+use crate::scales::contact::{DEPTHS, RESOLVED, RISE, SECANT, SLOW};
 
 /// What a contact may give back in a step.
 #[derive(Clone, Copy, Debug)]
@@ -169,7 +169,7 @@ impl Push<'_> {
         if self.rebound.elastic && depth.max(self.start) > 0.0 {
             let (way, before) = (depth - self.start, self.law.at(self.start));
             // of a small way the difference of the energies is lost in rounding
-            if way.abs() > 1e-6 * depth.abs() {
+            if way.abs() > SECANT * depth.abs() {
                 let force = (out.energy - before.energy) / way;
                 (out.force, out.slope) = (force, (out.force - force) / way);
             } else {
