@@ -3,6 +3,7 @@
 use lariat_ancf::Section;
 use lariat_scene::run::{self, Options};
 use lariat_scene::{Purpose, Scene};
+use std::path::Path;
 
 fn scene(rest: &str) -> String {
     format!(
@@ -95,6 +96,28 @@ fn pieces_of_a_cable_have_their_own_sections() {
         kinked.cables[part].sections.iter().map(|(from, section)| (*from, *section == chain)).collect()
     };
     assert_eq!([0, 1, 2].map(starts), [vec![(0.0, false)], vec![(0.0, false), (20.0, true)], vec![(0.0, true)]]);
+}
+
+/// The sling of assets/scenes/chain_and_rope.toml carries at its hook what its page says, and stays
+/// at rest.
+///
+/// *Source.* The weights of 6 m of rope and 4 m of chain, by `RopeMaterial`.
+#[test]
+fn the_sling_of_its_scene_carries_rope_and_chain() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/chain_and_rope.toml");
+    let scene = Scene::read(&path, &[], Purpose::Run).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run::run(&scene, folder.path(), &mut Options::default()).unwrap();
+    assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+    let (of_rope, of_chain) = (9.81 * 6.0 * 6.7875 * 0.0256, 9.81 * 4.0 * 200.1 * 0.04);
+    for (probe, tension) in [("hook", of_rope + of_chain), ("shackle", of_chain)] {
+        let rows = std::fs::read_to_string(folder.path().join(format!("probes/{probe}.csv"))).unwrap();
+        let column = rows.lines().next().unwrap().split(',').position(|name| name == "tension").unwrap();
+        for row in rows.lines().skip(1) {
+            let read: f64 = row.split(',').nth(column).unwrap().parse().unwrap();
+            assert!((read / tension - 1.0).abs() < 2e-5, "{row} {tension}");
+        }
+    }
 }
 
 /// What a piece cannot be is refused by name: out of order, off the cable, with a sag, and with

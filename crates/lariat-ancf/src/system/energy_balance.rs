@@ -82,8 +82,8 @@ impl Equations<'_> {
         let forces = &self.system.forces;
         let dissipates = forces.in_element.as_ref().is_some_and(|effects| effects.dissipates());
         let line_loads = !self.system.feeds.is_empty() && self.model.effects.line_loads.is_some();
+        let twist_damps = self.twist_damps();
         let torsion = self.model.effects.torsion.as_ref().filter(|_| self.system.torsion_forces.is_some());
-        let twist_damps = torsion.is_some_and(|torsion| torsion.damping > 0.0);
         let effects = dissipates || forces.act_at_points() || line_loads || twist_damps;
         let motors = torsion.is_some_and(|torsion| !torsion.is_still(before.time));
         if !effects && !motors && self.model.loads.is_empty() {
@@ -97,8 +97,9 @@ impl Equations<'_> {
                 along.add_scaled(0.5 * h, &self.effect_power(time));
             }
             let EnergyMeter { q, v, .. } = &self.system.meter;
-            if let Some(torsion) = &mut self.system.torsion_forces {
-                turned += 0.5 * h * torsion.powers(self.model, time, [q, v])[1];
+            if let Some(torsion) = self.system.torsion_forces.as_mut().filter(|_| motors) {
+                let input = ForceInput { time, q, v, dv_dq: 0.0, scale: 1.0 };
+                turned += 0.5 * h * torsion.powers(self.model, &input)[1];
             }
             loads += 0.5 * h * self.system.loads.point_power(&self.model.loads, time, q, v);
         }
@@ -120,6 +121,12 @@ impl Equations<'_> {
         meter.law.uncertain += apart;
     }
 
+    /// Returns whether the twist is damped, where forces have torsion in them.
+    fn twist_damps(&self) -> bool {
+        let damps = self.model.effects.torsion.as_ref().is_some_and(|torsion| torsion.damping > 0.0);
+        damps && self.system.torsion_forces.is_some()
+    }
+
     /// Reads positions and velocities at the share `s` of a step into the meter.
     fn read_cubic(&mut self, s: f64, (before, after, h): (&State, &State, f64), range: Range<usize>) {
         let EnergyMeter { q, v, force, .. } = &mut self.system.meter;
@@ -134,6 +141,7 @@ impl Equations<'_> {
 
     /// Returns the power of effects that have no energy, at positions and velocities of the meter.
     fn effect_power(&mut self, time: f64) -> EffectWork {
+        let twist_damps = self.twist_damps();
         let system = &mut *self.system;
         system.set_feeds(self.model, time);
         let (forces, EnergyMeter { q, v, force, .. }) = (&mut system.forces, &mut system.meter);
@@ -149,8 +157,8 @@ impl Equations<'_> {
             power.line_loads = of_lines.iter().zip(input.v).map(|(f, v)| f * v).sum();
         }
         forces.at_points.add_power(system.level, input, force, &mut power);
-        if let Some(torsion) = &mut system.torsion_forces {
-            power.torsion = -torsion.powers(self.model, time, [input.q, input.v])[0];
+        if let Some(torsion) = system.torsion_forces.as_mut().filter(|_| twist_damps) {
+            power.torsion = -torsion.powers(self.model, &input)[0];
         }
         if let Some(densities) = &mut forces.densities {
             force.fill(0.0);

@@ -15,6 +15,7 @@
 //! | [`dynamics`] | the equations as integrators see them |
 //! | [`energy_balance`] | work of effects and change of energy over a step |
 //! | [`reel`] | the elements at the eyes of reels |
+//! | [`torsion`], `torsion_motion`, `torsion_solve` | torsion in statics, in the stages of methods, and beside a factored matrix |
 //! | [`jacobian`] | exact derivatives |
 //! | [`frequency`] | a bound of the frequencies |
 //! | [`reading`] | tension and strain, and the largest load |

@@ -245,6 +245,17 @@ impl TorsionForces {
         self.segments.iter().map(of).sum()
     }
 
+    /// Sets the gradient of a segment, and returns its elastic torque in N m and that of damping.
+    pub(super) fn torque_parts(&mut self, number: usize, model: &Model, input: &ForceInput<'_>) -> [f64; 2] {
+        let twist = self.twist_in(&self.segments[number], model, (input.q, input.time));
+        let ForceSegment { segment, gradient, .. } = &mut self.segments[number];
+        segment.gradient(&model.elements, input.q, gradient);
+        let (elastic, damping) = (segment.torque(&model.elements, input.q, twist), self.damping(model));
+        let own = &self.segments[number];
+        let damped = if damping > 0.0 { damping * own.segment.stiffness * own.rate(model, input) } else { 0.0 };
+        [elastic, damped]
+    }
+
     /// Adds the force of a shape times the input's factor, and the part of its negative derivative
     /// that couples neighbours alone.
     pub fn add(
@@ -263,11 +274,7 @@ impl TorsionForces {
         }
         let mut count = 0;
         for number in 0..self.segments.len() {
-            let twist = self.twist_in(&self.segments[number], model, (q, input.time));
-            let ForceSegment { segment, gradient, .. } = &mut self.segments[number];
-            segment.gradient(&model.elements, q, gradient);
-            let elastic = segment.torque(&model.elements, q, twist);
-            let torque = elastic + self.damping_torque(&self.segments[number], model, input);
+            let torque = self.torque_parts(number, model, input).iter().sum::<f64>();
             let ForceSegment { segment, gradient, .. } = &self.segments[number];
             let own = &mut out[segment.range()];
             own.iter_mut().zip(gradient).for_each(|(out, g)| *out -= scale * torque * g);

@@ -62,22 +62,13 @@ impl TorsionForces {
     /// Returns by how much in rad motors have turned a segment since the last shape.
     pub(super) fn driven(&self, own: &ForceSegment, model: &Model, time: f64) -> f64 {
         let Some(since) = self.since else { return 0.0 };
-        sum_of_motors(own, model, |spin| spin.angle(time) - spin.angle(since))
+        own.sum_of_motors(model, |spin| spin.angle(time) - spin.angle(since))
     }
 
     /// Returns the damping time in s; none in statics.
     pub(super) fn damping(&self, model: &Model) -> f64 {
         let of = |torsion: &Torsion| if self.since.is_some() { torsion.damping } else { 0.0 };
         model.effects.torsion.as_ref().map_or(0.0, of)
-    }
-
-    /// Returns the torque in N m of damping at the gradient of a segment.
-    pub(super) fn damping_torque(&self, own: &ForceSegment, model: &Model, input: &ForceInput<'_>) -> f64 {
-        let damping = self.damping(model);
-        if damping == 0.0 {
-            return 0.0;
-        }
-        damping * own.segment.stiffness * twist_rate(own, model, (input.time, input.v))
     }
 
     /// Returns by how much torsion raises a bound of the squares of the frequencies, in 1/s^2, at
@@ -91,31 +82,30 @@ impl TorsionForces {
     }
 
     /// Returns the power in W that damping takes, and that of motors.
-    pub fn powers(&mut self, model: &Model, time: f64, [q, v]: [&[f64]; 2]) -> [f64; 2] {
+    pub fn powers(&mut self, model: &Model, input: &ForceInput<'_>) -> [f64; 2] {
         let mut powers = [0.0; 2];
         for number in 0..self.segments.len() {
-            let twist = self.twist_in(&self.segments[number], model, (q, time));
-            let ForceSegment { segment, gradient, .. } = &mut self.segments[number];
-            segment.gradient(&model.elements, q, gradient);
+            let [elastic, damped] = self.torque_parts(number, model, input);
             let own = &self.segments[number];
-            let damping = self.damping(model) * own.segment.stiffness * twist_rate(own, model, (time, v));
-            let torque = own.segment.torque(&model.elements, q, twist) + damping;
-            powers[0] += damping * twist_rate(own, model, (time, v));
-            powers[1] += torque * sum_of_motors(own, model, |spin| spin.rate(time));
+            powers[0] += damped * own.rate(model, input);
+            powers[1] += (elastic + damped) * own.sum_of_motors(model, |spin| spin.rate(input.time));
         }
         powers
     }
 }
 
-/// Returns the sum over the motors at both holds of a segment, with their signs.
-fn sum_of_motors(own: &ForceSegment, model: &Model, of: impl Fn(&EndSpin) -> f64) -> f64 {
-    let Some(torsion) = &model.effects.torsion else { return 0.0 };
-    own.segment.nodes.into_iter().zip(SIGNS).map(|(node, sign)| sign * of(model.end_spin(torsion, node))).sum()
-}
+impl ForceSegment {
+    /// Returns the sum over the motors at both holds, with their signs.
+    fn sum_of_motors(&self, model: &Model, of: impl Fn(&EndSpin) -> f64) -> f64 {
+        let Some(torsion) = &model.effects.torsion else { return 0.0 };
+        self.segment.nodes.into_iter().zip(SIGNS).map(|(node, sign)| sign * of(model.end_spin(torsion, node))).sum()
+    }
 
-/// Returns the rate in rad/s of the twist of a segment at its gradient.
-fn twist_rate(own: &ForceSegment, model: &Model, (time, v): (f64, &[f64])) -> f64 {
-    dot(&own.gradient, &v[own.segment.range()]) + sum_of_motors(own, model, |spin| spin.rate(time))
+    /// Returns the rate in rad/s of the twist at its gradient.
+    pub(super) fn rate(&self, model: &Model, input: &ForceInput<'_>) -> f64 {
+        let of_motors = self.sum_of_motors(model, |spin| spin.rate(input.time));
+        dot(&self.gradient, &input.v[self.segment.range()]) + of_motors
+    }
 }
 
 impl Equations<'_> {
