@@ -188,7 +188,7 @@ impl RigidBody {
     /// [`Error::InvalidValue`] for a position that is not finite.
     pub fn junction(position: Vector3<f64>) -> Result<Self, Error> {
         let mut body = RigidBody::new(1.0, Matrix3::identity(), position)?;
-        body.mass = 0.0;
+        (body.mass, body.inertia) = (0.0, Matrix3::zeros());
         body.free = [true, true, true, false, false, false];
         Ok(body)
     }

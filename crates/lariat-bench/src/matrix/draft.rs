@@ -105,6 +105,12 @@ pub struct Draft {
     pub clamps: bool,
     /// Whether it runs over a sheave in its middle.
     pub sheave: bool,
+    /// Whether the wheel of that has friction and inertia.
+    pub heavy: bool,
+    /// Whether another cable is tied to it.
+    pub tied: bool,
+    /// Whether it has a kink.
+    pub kink: bool,
     /// What winds cable at the start and at the end.
     pub wound: [Option<Wound>; 2],
     /// Its effects.
@@ -144,6 +150,9 @@ impl Draft {
             middle: None,
             clamps: false,
             sheave: false,
+            heavy: false,
+            tied: false,
+            kink: false,
             wound: [None, None],
             effects: Effects { damping, ..Effects::default() },
             force_density: false,
@@ -205,6 +214,9 @@ impl Draft {
             }
             Feature::FreeSpool => self.wind(Wound::Reel(Reel { inertia: 0.2, ..Reel::free_spool() })),
             Feature::Sheave => self.sheave = true,
+            Feature::HeavySheave => (self.sheave, self.heavy) = (true, true),
+            Feature::Junction => self.tied = true,
+            Feature::Kink => self.kink = true,
             Feature::Drum => self.wind(Wound::Drum),
             Feature::AxialDamping => effects.damping.get_or_insert(Damping { axial: 0.0, bending: 0.0 }).axial = 2e-3,
             Feature::BendingDamping => {

@@ -48,6 +48,10 @@ features! {
     ImpulseJoint = "body on an impulse joint",
     /// A body on a multibody joint.
     MultibodyJoint = "body on a multibody joint",
+    /// Another cable tied to a point between its ends.
+    Junction = "junction",
+    /// A point between its ends at which its slope is free.
+    Kink = "kink",
     /// Contact with a fixed floor.
     TouchesFloor = "contact with a floor",
     /// Contact with a kinematic body that moves.
@@ -68,6 +72,8 @@ features! {
     FreeSpool = "free spool",
     /// A sheave between two cables.
     Sheave = "sheave",
+    /// A sheave whose wheel has friction and inertia.
+    HeavySheave = "sheave with friction",
     /// A drum that is a body.
     Drum = "drum",
     /// Damping of strain.
@@ -147,9 +153,9 @@ impl Feature {
     /// Returns the term of a step that it brings, as the mechanics lists it.
     pub fn term(self) -> &'static str {
         match self {
-            FixedBody | KinematicBody | TurningPath => "pins",
+            FixedBody | KinematicBody | TurningPath | Junction | Kink => "pins",
             DynamicBody | ImpulseJoint | MultibodyJoint | Water => "bodies",
-            ReelByRate | ReelByForce | ReelBrake | FreeSpool | Sheave | Drum => "reels",
+            ReelByRate | ReelByForce | ReelBrake | FreeSpool | Sheave | HeavySheave | Drum => "reels",
             Torsion | Stranded => "torsion",
             feature if feature.is_contact() => "contacts",
             _ => "cables",
@@ -183,7 +189,8 @@ impl Feature {
 
     /// Whether a system that has it, and no more, keeps its momentum: nothing acts from outside.
     pub fn keeps_momentum(self) -> bool {
-        let internal = matches!(self, DynamicBody | TouchesLoose | TouchesItself | TouchesCable | Break | Cut);
+        let internal =
+            matches!(self, DynamicBody | Junction | Kink | TouchesLoose | TouchesItself | TouchesCable | Break | Cut);
         let own = matches!(
             self,
             AxialDamping | BendingDamping | RestShape | Torsion | Stranded | HookeLaw | RopeLaw | CurveLaw

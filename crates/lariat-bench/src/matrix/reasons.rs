@@ -5,7 +5,7 @@ use super::feature::{Feature, Pair};
 /// Returns the reason for which a pair is none; `None` for a pair that must run.
 pub fn reason(pair: Pair) -> Option<&'static str> {
     let both = |among: &[Feature]| pair.both().iter().all(|feature| among.contains(feature));
-    let winds = |feature: &Feature| feature.is_reel() || *feature == Feature::Sheave;
+    let winds = |feature: &Feature| feature.is_reel() || matches!(feature, Feature::Sheave | Feature::HeavySheave);
     match pair {
         _ if both(&[Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) => Some("a cable has one axial law"),
         _ if both(&[Feature::Drag, Feature::Current, Feature::Water]) => Some("a cable is in one fluid"),
@@ -15,6 +15,7 @@ pub fn reason(pair: Pair) -> Option<&'static str> {
         {
             Some("a run to a given error chooses the one integrator that a cable has")
         }
+        _ if both(&[Feature::Sheave, Feature::HeavySheave]) => Some("a wheel has one friction and one inertia"),
         _ if both(&[Feature::Torsion, Feature::Stranded]) => Some("a cable has one law of torsion"),
         _ if pair.has(Feature::Stranded)
             && both(&[Feature::Stranded, Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) =>

@@ -146,6 +146,9 @@ fn changes(feature: Feature) -> bool {
             | Feature::RopeLaw
             | Feature::CurveLaw
             | Feature::Sheave
+            | Feature::HeavySheave
+            | Feature::Junction
+            | Feature::Kink
             | Feature::TouchesFloor
     );
     !(lasts || feature.is_procedure())

@@ -19,6 +19,13 @@ const DRUM: f64 = 0.1;
 const MASS: Real = 0.25;
 /// Half side of a body in m.
 const HALF: f64 = 0.04;
+/// Friction of a sheave, and inertia of its wheel over the square of its radius in kg.
+const WHEEL: [f64; 2] = [0.2, 0.05];
+/// Where a cable has a kink, and where another is tied to it, as shares of its last part: not in an element at an eye.
+const KINK: f64 = 0.6;
+/// See [`KINK`].
+const TIE: f64 = 0.45;
+
 /// A body that turns on a path: from rest, along a curve and about an axis that is none of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
@@ -103,8 +110,41 @@ impl Scene {
             self.cuts.push((last, draft.from + CUT));
         }
         if draft.sheave {
-            self.set.add_sheave((first, At::End), (last, At::Start), SheaveOptions::default())?;
+            let none = SheaveOptions::default();
+            let heavy = SheaveOptions { friction: WHEEL[0], inertia: WHEEL[1], ..none };
+            self.set.add_sheave((first, At::End), (last, At::Start), if draft.heavy { heavy } else { none })?;
         }
+        if draft.tied {
+            self.tie(&draft, last, elements)?;
+        }
+        if draft.kink {
+            let at = KINK * self.set.get(last)?.length();
+            self.set.add_kink(last, At::ArcLength(at))?;
+        }
+        Ok(())
+    }
+
+    /// Ties another cable to a point of one, which hangs from it.
+    fn tie(&mut self, draft: &Draft, cable: CableHandle, elements: usize) -> Result<(), Fault> {
+        let own = self.set.get(cable)?;
+        let at = TIE * own.length();
+        let from = own.sample(at)?.position;
+        // what is to sleep may not swing
+        let aside = if draft.hangs { 0.0 } else { 0.1 };
+        let points = [from, from + Vector3::new(aside, -0.3, 0.0)];
+        let mut tail = Cable::builder().points(points).section(Draft::section()).elements(elements.div_ceil(2));
+        if let Some(fidelity) = draft.fidelity {
+            tail = tail.fidelity(fidelity);
+        }
+        if draft.floats {
+            let spin = Vector3::z() * SPIN;
+            tail = tail.angular_velocity(spin).velocity(spin.cross(&(from - draft.point(0.0))));
+        }
+        if draft.hangs {
+            tail = tail.damping(Damping { axial: 0.03, bending: 0.03 });
+        }
+        let tail = self.insert(tail, "tail")?;
+        self.set.join((cable, At::ArcLength(at)), (tail, At::Start))?;
         Ok(())
     }
 

@@ -78,9 +78,10 @@ impl Scene {
         for (_, cable) in self.set.iter() {
             let law = cable.energy_law();
             // what contacts do within the system is no work from outside: their force on cables has what loose
-            // bodies get, and what passes a sheave. What they take is known
+            // bodies get, and what passes a sheave. What they take is known; what sheaves take is in the work of
+            // their reels
             let effects = cable.effect_work();
-            work += effects.total() - effects.contact + law.obstacles - law.dissipated();
+            work += effects.total() - effects.contact + law.obstacles - law.contacts - law.impacts;
             // that of supports has the work of bodies that do not give way, and of kinematic ones
             work += law.supports;
             // the work of loads is independent of the run's account, which counts all forces on
