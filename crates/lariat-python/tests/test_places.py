@@ -80,6 +80,7 @@ CALLS: dict[tuple[str, str, str], Callable[[Any], Any]] = {
     ("CoSimulation", "attach", "at"): coupled,
     ("World", "cut", "at"): lambda at: in_world(lambda w, c, b: w.cut(c, at)),
     ("World", "attach", "at"): lambda at: in_world(lambda w, c, b: w.attach(c, at, b)),
+    ("World", "add_kink", "at"): lambda at: in_world(lambda w, c, b: w.add_kink(c, at)),
     ("World", "join", "at"): lambda at: in_world(lambda w, c, b: w.join(c, at, second(w), 0.5, gap=None)),
     ("World", "join", "second_at"): lambda at: in_world(lambda w, c, b: w.join(second(w), 0.5, c, at, gap=None)),
     ("World", "add_sheave", "at"): lambda at: in_world(lambda w, c, b: w.add_sheave(c, at, second(w), "start")),
