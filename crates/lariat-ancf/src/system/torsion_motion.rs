@@ -10,20 +10,11 @@
 //!
 //! It is a force of coordinates and time, so methods keep their orders. The last term of the matrix
 //! is left out: with damping the tangent is not exact. Explicit methods need a bound of the
-//! frequencies. With the weights l_e/L of Cauchy's inequality for the sum g.q' over the elements,
-//! and m_e and h_e mass and Hessian of one alone,
-//!
-//! ```text
-//! omega^2 <= omega_0^2 + max_e (GJ/l_e g_e.(m_e^-1 g_e) + |M| |m_e^(-1/2) h_e m_e^(-1/2)|)
-//! ```
+//! frequencies: [`frequency_square`](crate::effect::torsion::segment::Segment::frequency_square).
 //!
 //! # Validity
 //!
 //! Cables without reels; on bodies the discrete gradient alone carries torsion.
-//!
-//! # References
-//!
-//! Irons & Treharne 1971 (the largest frequency is at most that of an element).
 
 use super::torsion::{ForceSegment, SIGNS, TorsionForces};
 use super::{Equations, dot};

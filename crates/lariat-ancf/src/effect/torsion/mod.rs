@@ -30,6 +30,7 @@
 //! | `stranded` | torque by tension of a stranded rope |
 //! | `segment` | segments of a cable, their torques, and what the state holds of them |
 //! | `spin` | spin of a body about the direction of a clamp |
+//! | `frequency` | a bound of the frequencies |
 //! | `rank` | the solution with K g g^T added to the matrix |
 //!
 //! # Validity
@@ -57,6 +58,7 @@ pub(crate) mod check;
 pub(crate) mod curve;
 mod direction;
 mod element;
+mod frequency;
 pub(crate) mod lengths;
 mod pair;
 mod path;

@@ -20,11 +20,10 @@ use super::lengths::Lengths;
 use super::path::twist_along;
 use super::stranded::{Strands, elongation, elongation_gradient, elongation_hessian, rest_elongation};
 use crate::effect::RestShape;
-use crate::element::mass;
 use crate::linalg::{Block, BlockTridiagonal};
 use crate::section::Element;
 use crate::state::SegmentTwist;
-use nalgebra::{Matrix3, Matrix4, Vector3};
+use nalgebra::Matrix3;
 
 /// What the curve of a segment adds to its twist over a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -94,7 +93,7 @@ impl Segment {
     }
 
     /// Returns the numbers of the elements.
-    fn elements(&self) -> core::ops::Range<usize> {
+    pub(super) fn elements(&self) -> core::ops::Range<usize> {
         self.nodes[0]..self.nodes[1]
     }
 
@@ -226,50 +225,6 @@ impl Segment {
                 }
             }
         }
-    }
-
-    /// Returns by how much the segment raises a bound of the squares of the frequencies of its
-    /// elements alone, in 1/s^2, at a torque in N m; `mass` is that per length in kg/m.
-    pub fn frequency_square(
-        &self,
-        elements: &[Element],
-        q: &[f64],
-        torque: f64,
-        mass: impl Fn(&Element) -> f64,
-    ) -> f64 {
-        let length: f64 = elements[self.elements()].iter().map(|element| element.length).sum();
-        let (mut worst, mut gradient, mut part) = (0.0f64, [0.0; COORDINATES], [0.0; COORDINATES]);
-        self.for_each(|e, at, _| {
-            let element = &elements[e];
-            element::twist_gradient(&q[at.clone()], element.length, &mut gradient);
-            let mut blocks: Blocks = twist_hessian(&q[at.clone()], element.length, torque);
-            if let Some(strands) = self.strands {
-                let share = strands.share(element);
-                elongation_gradient(|i| q[at.start + i], element.length, share, &mut part);
-                gradient.iter_mut().zip(&part).for_each(|(sum, x)| *sum += x);
-                for (row, column) in (0..4).flat_map(|row| (0..=row).map(move |column| (row, column))) {
-                    let entry = torque * share * elongation_hessian(row, column, element.length);
-                    blocks[row][column] += Matrix3::from_diagonal_element(entry);
-                }
-            }
-            let mass = mass::consistent(mass(element), element.length);
-            let factor = Matrix4::from_fn(|i, j| mass[i][j]).cholesky().and_then(|factor| factor.l().try_inverse());
-            let Some(factor) = factor else { return };
-            let vector = |k: usize| Vector3::from_column_slice(&gradient[3 * k..3 * k + 3]);
-            let block = |i: usize, j: usize| if i < j { blocks[j][i].transpose() } else { blocks[i][j] };
-            let (mut along, mut across) = (0.0, 0.0);
-            for i in 0..4 {
-                along += (0..4).map(|a| vector(a) * factor[(i, a)]).sum::<Vector3<f64>>().norm_squared();
-                for j in 0..4 {
-                    let pairs = (0..4).flat_map(|a| (0..4).map(move |b| (a, b)));
-                    let scaled: Matrix3<f64> =
-                        pairs.map(|(a, b)| block(a, b) * (factor[(i, a)] * factor[(j, b)])).sum();
-                    across += scaled.norm_squared();
-                }
-            }
-            worst = worst.max(self.stiffness * length / element.length * along + across.sqrt());
-        });
-        worst
     }
 
     /// Returns what is left of the twists of a state for this segment: of segments that it covers
