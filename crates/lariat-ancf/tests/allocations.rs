@@ -42,8 +42,8 @@ fn a_warm_cable_steps_without_allocating() {
     }
 }
 
-/// The same of a twisted cable that a motor winds up, and reads itself, by the discrete gradient and
-/// by a method that evaluates forces.
+/// The same of a twisted cable that a motor winds up, and reads itself, by the discrete gradient
+/// and by a method that evaluates forces.
 ///
 /// *Source.* The contract.
 #[test]
@@ -147,8 +147,8 @@ fn a_warm_island_steps_without_allocating() {
     }
 }
 
-/// A cable of 16 elements that has stepped, alone or with a body, or that statics have placed: at most 20 kB, the cable itself included.
-/// What it needs only while it steps belongs to the thread.
+/// A cable of 16 elements that has stepped, alone or with a body, or that statics have placed: at
+/// most 20 kB, the cable itself included. What it needs only while it steps belongs to the thread.
 ///
 /// *Source.* The contract: a fleet of thousands stays in the cache. An allocator that counts.
 #[test]

@@ -1,5 +1,5 @@
-//! What a program changes between two steps acts in every method: the discrete gradient, which carries the changes of the last step on,
-//! comes to the run of a method that carries nothing.
+//! What a program changes between two steps acts in every method: the discrete gradient, which
+//! carries the changes of the last step on, comes to the run of a method that carries nothing.
 
 use lariat_ancf::{
     At, AxialLaw, Buoyancy, Cable, Damping, Drag, Effects, Flow, GravityScale, Integrator, Method, Motion, PointLoad,
@@ -71,7 +71,8 @@ fn change(cable: &mut Cable, change: impl FnOnce(&mut Effects)) {
     cable.set_effects(effects).unwrap();
 }
 
-/// Runs a slack cable between clamps, changes it twice on the way, and returns places along it, and its twist if it has one.
+/// Runs a slack cable between clamps, changes it twice on the way, and returns places along it, and
+/// its twist if it has one.
 fn run(edit: fn(&mut Cable), twisted: bool, (method, control): (Method, StepControl)) -> Vec<f64> {
     let torsion = twisted.then(|| Torsion { initial_twist: 0.3, ..Torsion::new(0.02) });
     let mut cable = Cable::builder()
@@ -95,8 +96,9 @@ fn run(edit: fn(&mut Cable), twisted: bool, (method, control): (Method, StepCont
     places.chain(cable.torsion().iter().map(|own| own.twist)).collect()
 }
 
-/// With steps a quarter as long the discrete gradient is four times nearer, or more, to the run of a Runge-Kutta method whose error
-/// is far smaller, whatever is changed: what it carried on across the change would leave a difference that does not fall.
+/// With steps a quarter as long the discrete gradient is four times nearer, or more, to the run of
+/// a Runge-Kutta method whose error is far smaller, whatever is changed: what it carried on across
+/// the change would leave a difference that does not fall.
 ///
 /// *Source.* A method that remembers nothing of the last step.
 #[test]

@@ -205,8 +205,8 @@ impl Cable {
     /// Returns by which frequency in rad/s torsion raises the bound of all, squares added.
     pub(super) fn torsion_frequency(&self) -> f64 {
         let of = |(segment, twist): (Segment, SegmentTwist)| {
-            let torque = self.torque_in(&segment, &twist);
-            segment.frequency_square(self.elements(), self.positions(), torque, |element| self.model.inertia(element))
+            let shape = (self.positions(), twist.twist);
+            segment.frequency_square(self.elements(), shape, |element| self.model.inertia(element))
         };
         self.segments().into_iter().map(of).fold(0.0f64, f64::max).sqrt()
     }

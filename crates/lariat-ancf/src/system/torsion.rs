@@ -230,10 +230,16 @@ impl TorsionForces {
         self.shape.copy_from_slice(q);
     }
 
+    /// Returns the twist that is added from the last shape to another and a time in s, and how many
+    /// pairs slip.
+    pub(super) fn turned(&self, own: &ForceSegment, model: &Model, (q, time): (&[f64], f64)) -> (f64, u64) {
+        let (curve, slips) = if self.is_last(q) { (0.0, 0) } else { self.change(own, model, q) };
+        (curve + own.spin() + self.driven(own, model, time), slips)
+    }
+
     /// Returns the twist in rad of a segment in a shape at a time in s.
     pub(super) fn twist_in(&self, own: &ForceSegment, model: &Model, (q, time): (&[f64], f64)) -> f64 {
-        let curve = if self.is_last(q) { 0.0 } else { self.change(own, model, q).0 + own.spin() };
-        own.twist + curve + self.driven(own, model, time)
+        own.twist + self.turned(own, model, (q, time)).0
     }
 
     /// Returns the energy in J of a shape at a time in s.

@@ -38,12 +38,11 @@ impl TorsionForces {
     pub fn accept(&mut self, model: &Model, state: &mut State) -> u64 {
         let mut slips = 0;
         for number in 0..self.segments.len() {
-            let own = &self.segments[number];
-            let twist = self.twist_in(own, model, (&state.q, state.time));
-            slips += own.segment.follow(&model.elements, [&self.shape, &state.q]).1;
-            self.segments[number].twist = twist;
+            let (turned, slipped) = self.turned(&self.segments[number], model, (&state.q, state.time));
+            let own = &mut self.segments[number];
+            (own.twist, slips) = (own.twist + turned, slips + slipped);
             let noted = state.memory.torsion.as_mut().and_then(|all| all.get_mut(number));
-            noted.into_iter().for_each(|noted| (noted.twist, noted.change) = (twist, 0.0));
+            noted.into_iter().for_each(|noted| (noted.twist, noted.change) = (own.twist, 0.0));
         }
         self.shape.copy_from_slice(&state.q);
         self.since = Some(state.time);
@@ -66,8 +65,7 @@ impl TorsionForces {
     /// the last shape.
     pub fn frequency_square(&self, model: &Model) -> f64 {
         let of = |own: &ForceSegment| {
-            let torque = own.segment.torque(&model.elements, &self.shape, own.twist);
-            own.segment.frequency_square(&model.elements, &self.shape, torque, |element| model.inertia(element))
+            own.segment.frequency_square(&model.elements, (&self.shape, own.twist), |element| model.inertia(element))
         };
         self.segments.iter().map(of).fold(0.0, f64::max)
     }

@@ -93,8 +93,8 @@ fn work_of_motors_and_of_damping_closes_the_account() {
     }
 }
 
-/// The step below which explicit methods are stable knows of torsion: on thrown cables with up to 40
-/// turns, GJ above and below EI, it is never longer than that of the largest frequency there is.
+/// The step below which explicit methods are stable knows of torsion: on thrown cables with up to
+/// 40 turns, GJ above and below EI, it is never longer than that of the largest frequency there is.
 ///
 /// *Source.* The eigenvalues of stiffness and mass, stable or not.
 #[test]
@@ -139,9 +139,9 @@ fn explicit_methods_are_stable_with_torsion() {
     }
 }
 
-/// Between two steps a clamp turns about any axis, and a motor turns in them: the slope is held where
-/// the clamp is, and the twist is that by which the director of the first clamp comes to that of the last, which goes along great circles
-/// and with the motor. A snapshot continues to the bit.
+/// Between two steps a clamp turns about any axis, and a motor turns in them: the slope is held
+/// where the clamp is, and the twist is that by which the director of the first clamp comes to that
+/// of the last, which goes along great circles and with the motor. A snapshot continues to the bit.
 ///
 /// *Source.* The contract of supports and of snapshots.
 #[test]

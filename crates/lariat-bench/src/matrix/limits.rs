@@ -26,7 +26,8 @@ const SPREAD: &str = "spread at dt/8";
 /// Differences of velocities in m/s that are none in use.
 const ROUNDING: f64 = 1e-9;
 
-/// Measures why the run to `fine`, at an eighth of the host step, differs from that of the whole one; `moved` is how far anything moved in m.
+/// Measures why the run to `fine`, at an eighth of the host step, differs from that of the whole
+/// one; `moved` is how far anything moved in m.
 ///
 /// # Errors
 /// [`Ended`].

@@ -203,8 +203,7 @@ impl Physics {
             let SheaveScene { friction, turns, inertia, brake, radius, on_wheel, .. } = *sheave;
             let [from, to] = sheave.cables.map(|cable| self.handles[cable]);
             // what is on the wheel turns with it
-            let inertia =
-                inertia + scene.cables[sheave.cables[0]].sections.at(f64::INFINITY).mass_per_length * on_wheel;
+            let inertia = inertia + scene.cables[sheave.cables[0]].sections.last().mass_per_length * on_wheel;
             let options = SheaveOptions { inertia, friction, turns, brake, radius };
             let added = self.cables.add_sheave((from, At::End), (to, At::Start), options);
             self.sheaves.push(added.map_err(|error| self.explain(scene, 0.0, error))?);

@@ -10,9 +10,7 @@ use super::sections::{self, PieceTable, SECTION, SectionForm, SectionKeys, Secti
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Kind, NOT_NEGATIVE, POSITION, POSITIVE, VECTOR, choice, parse_as, table};
-use lariat_ancf::{
-    At, AxialLaw, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, Rule, Section, Vector3, Water,
-};
+use lariat_ancf::{At, AxialRule, BendingRule, Cable, Effects, Fidelity, Reel, Rule, Section, Vector3, Water};
 use serde::Deserialize;
 
 choice! {
@@ -152,6 +150,15 @@ pub struct CableScene {
     pub angular_velocity: Vector3<f64>,
 }
 
+impl From<&CableTable> for SectionKeys {
+    fn from(row: &CableTable) -> Self {
+        let &CableTable {
+            section, density, youngs_modulus, axial_stiffness, bending_stiffness, mass_per_length, ..
+        } = row;
+        SectionKeys { section, density, youngs_modulus, axial_stiffness, bending_stiffness, mass_per_length }
+    }
+}
+
 impl CableScene {
     /// Returns the mean of something along it.
     pub fn mean_of(&self, of: impl Fn(&Section) -> f64) -> f64 {
@@ -182,18 +189,14 @@ pub(super) fn read(
     let mut integrator = integrator::read(doc, &at.key("integrator"), &row.integrator)?;
     let rule = rule(doc, &at.key("rule"), &row, integrator.rule())?;
     let length = length(doc, at, &row, (rule, gravity), (drawn, water))?;
-    let sections = sections::read(doc, at, (keys(&row), &row.piece), length)?;
+    let sections = sections::read(doc, at, ((&row).into(), &row.piece), length)?;
     let breaking = breaking::read(doc, at, &mut row.effects, (length, row.elements.count()))?;
     let (reel, reel_at_start, drum) = match reel::read(doc, at, &mut row.effects)? {
         Some(reel::Written { reel, at_start, drum }) => (Some(reel), at_start, drum),
         None => (None, false, None),
     };
-    let is_rope = sections::are_ropes(keys(&row), &row.piece);
     let context = effects::Context { sections: &sections, rule, length, water };
-    let mut effects = effects::read(doc, at, row.effects, &context)?;
-    if is_rope && effects.axial_law.is_none() {
-        effects.axial_law = AxialLaw::of_elongation(&effects, rule);
-    }
+    let effects = effects::read(doc, at, row.effects, &context)?;
     let slips = reel.as_ref().is_some_and(|reel| reel.max_force.is_some());
     let key = at.key("integrator");
     if effects.torsion.is_some() && (!doc.contains(&key) || integrator == Fidelity::Engineering) {
@@ -250,15 +253,12 @@ fn length(
     if !row.piece.is_empty() {
         return Err(doc.conflict(&at.key(key), "which piece has what length is not known: give the length"));
     }
-    let sections = sections::read(doc, at, (keys(row), &[]), drawn)?;
+    let sections = sections::read(doc, at, (row.into(), &[]), drawn)?;
     let mut rest = row.effects.clone();
     breaking::read(doc, at, &mut rest, (drawn, row.elements.count()))?;
     reel::read(doc, at, &mut rest)?;
     let context = effects::Context { sections: &sections, rule, length: drawn, water };
-    let mut effects = effects::read(doc, at, rest, &context)?;
-    if sections::are_ropes(keys(row), &[]) && effects.axial_law.is_none() {
-        effects.axial_law = AxialLaw::of_elongation(&effects, rule);
-    }
+    let effects = effects::read(doc, at, rest, &context)?;
     let builder = Cable::builder().points(row.points.iter().copied()).elements(row.elements.count() as usize);
     let builder = builder.section(*sections.first());
     let builder =
@@ -266,12 +266,6 @@ fn length(
     let builder = builder.name(row.name.as_str());
     let builder = if key == "sag" { builder.sag(value) } else { builder.pretension(value) };
     builder.build().map(|cable| cable.length()).map_err(|error| doc.conflict(&at.key(key), error.to_string()))
-}
-
-/// Returns the keys by which the cable itself gives a section.
-fn keys(row: &CableTable) -> SectionKeys {
-    let &CableTable { section, density, youngs_modulus, axial_stiffness, bending_stiffness, mass_per_length, .. } = row;
-    SectionKeys { section, density, youngs_modulus, axial_stiffness, bending_stiffness, mass_per_length }
 }
 
 fn rule(doc: &Document<'_>, at: &KeyPath, row: &CableTable, default: Rule) -> Result<Rule, Error> {

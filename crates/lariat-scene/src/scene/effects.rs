@@ -38,6 +38,18 @@ impl Context<'_> {
         }
         Err(doc.conflict(at, "it follows from one section, and the cable has several: give the numbers"))
     }
+
+    /// Checks that a size at a path is written there, or follows from every section.
+    fn given(
+        &self,
+        doc: &Document<'_>,
+        at: &KeyPath,
+        written: Option<f64>,
+        of: impl Fn(&Section) -> Option<f64>,
+    ) -> Result<(), Error> {
+        let known = written.is_some() || self.sections.all(|section| of(section).is_some());
+        if known { Ok(()) } else { Err(doc.missing(at)) }
+    }
 }
 
 /// An effect as a scene writes it. Every effect of the list of the mechanics is one.
@@ -74,7 +86,12 @@ macro_rules! generate {
             mut rows: toml::Table,
             cable: &Context<'_>,
         ) -> Result<Effects, Error> {
-            Ok(Effects { $($field: one(doc, &at.key($key), rows.remove($key), cable)?),* })
+            let mut effects = Effects { $($field: one(doc, &at.key($key), rows.remove($key), cable)?),* };
+            // catalogues of ropes have force over elongation
+            if cable.sections.are_ropes() && effects.axial_law.is_none() {
+                effects.axial_law = AxialLaw::of_elongation(&effects, cable.rule);
+            }
+            Ok(effects)
         }
     };
 }
@@ -180,10 +197,7 @@ impl SceneEffect for Drag {
     }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
-        if self.diameter.is_some() || cable.sections.all(|section| section.diameter.is_some()) {
-            return Ok(());
-        }
-        Err(doc.missing(&at.key("diameter")))
+        cable.given(doc, &at.key("diameter"), self.diameter, |section| section.diameter)
     }
 }
 
@@ -215,10 +229,7 @@ impl SceneEffect for Buoyancy {
     }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
-        if self.area.is_some() || cable.sections.all(|section| section.outer_area.is_some()) {
-            return Ok(());
-        }
-        Err(doc.missing(&at.key("area")))
+        cable.given(doc, &at.key("area"), self.area, |section| section.outer_area)
     }
 }
 
@@ -491,10 +502,7 @@ impl SceneEffect for Contact {
     }
 
     fn check(&self, doc: &Document<'_>, at: &KeyPath, cable: &Context<'_>) -> Result<(), Error> {
-        if self.radius.is_some() || cable.sections.all(|section| section.diameter.is_some()) {
-            return Ok(());
-        }
-        Err(doc.missing(&at.key("radius")))
+        cable.given(doc, &at.key("radius"), self.radius, |section| section.diameter)
     }
 }
 

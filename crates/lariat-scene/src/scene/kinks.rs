@@ -21,7 +21,7 @@ use super::attachment::AttachmentScene;
 use super::cable::CableScene;
 use super::elements::Grading;
 use super::junction::JunctionScene;
-use super::passing::of_part;
+use super::passing::part;
 use super::{Scene, references::unique};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
@@ -91,18 +91,10 @@ fn split(scene: &mut Scene, c: usize, kinks: &[f64]) {
     let mut before = c;
     for (k, between) in ends.windows(2).enumerate() {
         let [from, to] = [between[0], between[1]];
-        let points = drawn(&own, [from, to]);
-        let arm = points[0] - own.points[0];
         let part = CableScene {
-            length: to - from,
             elements: ((own.elements as f64 * (to - from) / own.length).round() as usize).max(1),
             grading: grading(&own, [from, to]),
-            velocity: own.velocity + own.angular_velocity.cross(&arm),
-            effects: of_part(&own, from, to),
-            sections: own.sections.between([from, to]),
-            reel: own.reel.clone().filter(|_| if own.reel_at_start { k == 0 } else { k == last }),
-            points,
-            ..own.clone()
+            ..part(&own, [from, to], drawn(&own, [from, to]), [k == 0, k == last])
         };
         if k == 0 {
             scene.cables[c] = part;

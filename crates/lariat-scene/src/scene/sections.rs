@@ -74,7 +74,7 @@ impl SectionForm {
         }
     }
 
-    /// Returns whether it is a rope or chain by name, whose EA is force over elongation.
+    /// Returns whether it is a rope or chain by name.
     fn is_rope(self) -> bool {
         matches!(self.form(), Form::Rope(..))
     }
@@ -121,34 +121,49 @@ impl From<&PieceTable> for SectionKeys {
     }
 }
 
-/// The sections of a cable: the arc length in m at which each begins, ascending from 0.
+/// The sections of a cable.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sections(Vec<(f64, Section)>);
+pub struct Sections {
+    /// The arc length in m at which each begins, ascending from 0.
+    list: Vec<(f64, Section)>,
+    /// Whether all are of ropes or chains by name, whose EA is force over elongation.
+    ropes: bool,
+}
 
 impl Sections {
     /// Returns the first one.
     pub fn first(&self) -> &Section {
-        &self.0[0].1
+        &self.list[0].1
+    }
+
+    /// Returns the last one.
+    pub fn last(&self) -> &Section {
+        &self.list[self.list.len() - 1].1
+    }
+
+    /// Returns whether all are of ropes or chains by name, whose EA is force over elongation.
+    pub fn are_ropes(&self) -> bool {
+        self.ropes
     }
 
     /// Returns that at an arc length in m.
     pub fn at(&self, arc_length: f64) -> &Section {
-        self.0.iter().rfind(|(from, _)| *from <= arc_length).map_or(self.first(), |(_, section)| section)
+        self.list.iter().rfind(|(from, _)| *from <= arc_length).map_or(self.first(), |(_, section)| section)
     }
 
     /// Returns whether all of the cable has the same one.
     pub fn is_uniform(&self) -> bool {
-        self.0.len() == 1
+        self.list.len() == 1
     }
 
     /// Returns where each begins in m, with it.
     pub fn iter(&self) -> impl Iterator<Item = &(f64, Section)> {
-        self.0.iter()
+        self.list.iter()
     }
 
     /// Returns whether something holds of each.
     pub fn all(&self, holds: impl Fn(&Section) -> bool) -> bool {
-        self.0.iter().all(|(_, section)| holds(section))
+        self.list.iter().all(|(_, section)| holds(section))
     }
 
     /// Returns the mean over a cable of this length in m of something.
@@ -156,15 +171,16 @@ impl Sections {
         if self.is_uniform() {
             return of(self.first());
         }
-        let ends = self.0.iter().skip(1).map(|(from, _)| *from).chain([length]);
-        self.0.iter().zip(ends).map(|((from, section), to)| of(section) * (to - from)).sum::<f64>() / length
+        let ends = self.list.iter().skip(1).map(|(from, _)| *from).chain([length]);
+        self.list.iter().zip(ends).map(|((from, section), to)| of(section) * (to - from)).sum::<f64>() / length
     }
 
     /// Returns those of the part between two arc lengths in m.
     pub(super) fn between(&self, [from, to]: [f64; 2]) -> Self {
-        let before = self.0.iter().filter(|(start, _)| *start <= from).count().saturating_sub(1);
-        let own = self.0[before..].iter().filter(|(start, _)| *start < to);
-        Sections(own.map(|(start, section)| ((start - from).max(0.0), *section)).collect())
+        let before = self.list.iter().filter(|(start, _)| *start <= from).count().saturating_sub(1);
+        let own = self.list[before..].iter().filter(|(start, _)| *start < to);
+        let list = own.map(|(start, section)| ((start - from).max(0.0), *section)).collect();
+        Sections { list, ropes: self.ropes }
     }
 }
 
@@ -175,21 +191,17 @@ pub(super) fn read(
     (own, pieces): (SectionKeys, &[PieceTable]),
     length: f64,
 ) -> Result<Sections, Error> {
-    let mut sections = vec![(0.0, section(doc, at, own)?)];
+    let mut list = vec![(0.0, section(doc, at, own)?)];
     for (k, piece) in pieces.iter().enumerate() {
         let row = at.key("piece").item(k);
         let from = arc_length(doc, &row.key("from"), piece.from, length)?;
-        if from <= sections[k].0 || from >= length {
+        if from <= list[k].0 || from >= length {
             return Err(doc.error(&row.key("from"), Problem::OutOfRange(from)));
         }
-        sections.push((from, section(doc, &row, piece.into())?));
+        list.push((from, section(doc, &row, piece.into())?));
     }
-    Ok(Sections(sections))
-}
-
-/// Returns whether all of a cable is rope or chain by name.
-pub(super) fn are_ropes(own: SectionKeys, pieces: &[PieceTable]) -> bool {
-    pieces.iter().map(|piece| piece.section).chain([own.section]).all(|form| form.is_some_and(SectionForm::is_rope))
+    let mut forms = pieces.iter().map(|piece| piece.section).chain([own.section]);
+    Ok(Sections { list, ropes: forms.all(|form| form.is_some_and(SectionForm::is_rope)) })
 }
 
 fn section(doc: &Document<'_>, at: &KeyPath, row: SectionKeys) -> Result<Section, Error> {

@@ -27,14 +27,15 @@ use nalgebra::{Matrix3, Matrix4, Vector3};
 
 impl Segment {
     /// Returns by how much the segment raises a bound of the squares of the frequencies of its
-    /// elements alone, in 1/s^2, at a torque in N m; `mass` is that per length in kg/m.
+    /// elements alone, in 1/s^2, in a shape with its twist in rad; `mass` is that per length in
+    /// kg/m.
     pub fn frequency_square(
         &self,
         elements: &[Element],
-        q: &[f64],
-        torque: f64,
+        (q, twist): (&[f64], f64),
         mass: impl Fn(&Element) -> f64,
     ) -> f64 {
+        let torque = self.torque(elements, q, twist);
         let length: f64 = elements[self.elements()].iter().map(|element| element.length).sum();
         let of = |e: usize| {
             let element = &elements[e];

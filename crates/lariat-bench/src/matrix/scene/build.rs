@@ -19,9 +19,12 @@ const DRUM: f64 = 0.1;
 const MASS: Real = 0.25;
 /// Half side of a body in m.
 const HALF: f64 = 0.04;
+/// Damping in s by which what hangs beside the rope comes to rest.
+const CALM: Damping = Damping { axial: 0.03, bending: 0.03 };
 /// Friction of a sheave, and inertia of its wheel over the square of its radius in kg.
 const WHEEL: [f64; 2] = [0.2, 0.05];
-/// Where a cable has a kink, and where another is tied to it, as shares of its last part: not in an element at an eye.
+/// Where a cable has a kink, and where another is tied to it, as shares of its last part: not in an
+/// element at an eye.
 const KINK: f64 = 0.6;
 /// See [`KINK`].
 const TIE: f64 = 0.45;
@@ -65,6 +68,15 @@ impl ForceDensity for Swing {
 
     fn depends_on_velocity(&self) -> bool {
         false
+    }
+}
+
+/// Returns a cable of the section of all through some points, by the fidelity of a drawing.
+fn drawn(draft: &Draft, points: Vec<Vector3<f64>>, elements: usize) -> CableBuilder {
+    let cable = Cable::builder().points(points).section(Draft::section()).elements(elements);
+    match draft.fidelity {
+        Some(fidelity) => cable.fidelity(fidelity),
+        None => cable,
     }
 }
 
@@ -131,17 +143,14 @@ impl Scene {
         let from = own.sample(at)?.position;
         // what is to sleep may not swing
         let aside = if draft.hangs { 0.0 } else { 0.1 };
-        let points = [from, from + Vector3::new(aside, -0.3, 0.0)];
-        let mut tail = Cable::builder().points(points).section(Draft::section()).elements(elements.div_ceil(2));
-        if let Some(fidelity) = draft.fidelity {
-            tail = tail.fidelity(fidelity);
-        }
+        let points = vec![from, from + Vector3::new(aside, -0.3, 0.0)];
+        let mut tail = drawn(draft, points, elements.div_ceil(2));
         if draft.floats {
             let spin = Vector3::z() * SPIN;
             tail = tail.angular_velocity(spin).velocity(spin.cross(&(from - draft.point(0.0))));
         }
         if draft.hangs {
-            tail = tail.damping(Damping { axial: 0.03, bending: 0.03 });
+            tail = tail.damping(CALM);
         }
         let tail = self.insert(tail, "tail")?;
         self.set.join((cable, At::ArcLength(at)), (tail, At::Start))?;
@@ -178,10 +187,7 @@ impl Scene {
     }
 
     fn add_rope(&mut self, draft: &Draft, points: Vec<Vector3<f64>>, elements: usize) -> Result<CableHandle, Fault> {
-        let mut rope = Cable::builder().points(points).section(Draft::section()).elements(elements);
-        if let Some(fidelity) = draft.fidelity {
-            rope = rope.fidelity(fidelity);
-        }
+        let mut rope = drawn(draft, points, elements);
         if draft.floats {
             rope = rope.angular_velocity(Vector3::z() * SPIN);
         }
@@ -322,17 +328,13 @@ impl Scene {
                 let ends = [-0.43, 0.37].map(|z| middle + place + Vector3::z() * z);
                 let contact = Contact::with_friction(0.3).with_radius(RADIUS).with_cables();
                 let contact = Contact { itself: false, ..contact };
-                let mut across = Cable::builder().points(ends).section(Draft::section()).elements(4);
+                let mut across = drawn(draft, ends.to_vec(), 4);
                 if !draft.floats {
                     across = across.fix(At::Start).fix(At::End);
                 } else {
                     across = across.velocity(Vector3::new(0.0, 1.5, 0.0));
                 }
-                if let Some(fidelity) = draft.fidelity {
-                    across = across.fidelity(fidelity);
-                }
-                let damping = Damping { axial: 0.03, bending: 0.03 };
-                let across = if hangs { across.gravity(Vector3::zeros()).damping(damping) } else { across };
+                let across = if hangs { across.gravity(Vector3::zeros()).damping(CALM) } else { across };
                 let across = self.insert(across, "across")?;
                 self.set.set_contact(across, contact)?;
             }

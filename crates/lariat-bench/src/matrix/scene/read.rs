@@ -10,8 +10,8 @@ use lariat_rapier::rapier::prelude::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Ledger {
     /// Kinetic, strain and gravity energy of all and what contacts store, less all work on it from
-    /// outside, and with what contacts and sheaves took; `None` where that is not known: of a drum, the
-    /// energy of what it winds up.
+    /// outside, and with what contacts and sheaves took; `None` where that is not known: of a drum,
+    /// the energy of what it winds up.
     pub kept: Option<f64>,
     /// Kinetic and strain energy.
     pub scale: f64,
@@ -77,9 +77,9 @@ impl Scene {
         let mut work = 0.0;
         for (_, cable) in self.set.iter() {
             let law = cable.energy_law();
-            // what contacts do within the system is no work from outside: their force on cables has what loose
-            // bodies get, and what passes a sheave. What they take is known; what sheaves take is in the work of
-            // their reels
+            // what contacts do within the system is no work from outside: their force on cables has
+            // what loose bodies get, and what passes a sheave. What they take is known; what
+            // sheaves take is in the work of their reels
             let effects = cable.effect_work();
             work += effects.total() - effects.contact + law.obstacles - law.contacts - law.impacts;
             // that of supports has the work of bodies that do not give way, and of kinematic ones

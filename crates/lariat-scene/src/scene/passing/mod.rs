@@ -157,7 +157,7 @@ fn split(
     }
     for (passage, ends) in passages.iter().zip(bounds.windows(2)) {
         let [on, off] = [ends[0], ends[1]].map(|part| own.sections.between(part));
-        if on.at(f64::INFINITY) != off.first() {
+        if on.last() != off.first() {
             let problem = "a piece with another section begins on its wheel, and would run over it".to_string();
             return Err(doc.conflict(&KeyPath::root("sheave").item(passage.row).key("at"), problem));
         }
@@ -166,19 +166,10 @@ fn split(
     let mut positions = Vec::new();
     for (k, (Drawn(points), [from, to])) in drawn.into_iter().zip(&bounds).enumerate() {
         let share = own.elements as f64 * (to - from) / free;
-        let arm = points[0] - own.points[0];
-        let last = k + 1 == bounds.len();
-        let reel = own.reel.clone().filter(|_| if own.reel_at_start { k == 0 } else { last });
         let part = CableScene {
-            length: to - from,
             elements: (share.round() as usize).max(LEAST_ELEMENTS),
-            velocity: own.velocity + own.angular_velocity.cross(&arm),
-            effects: of_part(&own, *from, *to),
-            sections: own.sections.between([*from, *to]),
-            reel,
             lead: if k == 0 { 0.0 } else { from - bounds[k - 1][1] },
-            points,
-            ..own.clone()
+            ..part(&own, [*from, *to], points, [k == 0, k + 1 == bounds.len()])
         };
         if k == 0 {
             scene.cables[c] = part;
@@ -200,8 +191,27 @@ fn split(
     Ok(())
 }
 
+/// Returns the part of a cable from an arc length to another that is drawn through some points, and is its first or last one.
+pub(super) fn part(
+    own: &CableScene,
+    [from, to]: [f64; 2],
+    points: Vec<Vector3<f64>>,
+    [first, last]: [bool; 2],
+) -> CableScene {
+    let arm = points[0] - own.points[0];
+    CableScene {
+        length: to - from,
+        velocity: own.velocity + own.angular_velocity.cross(&arm),
+        effects: effects_of_part(own, from, to),
+        sections: own.sections.between([from, to]),
+        reel: own.reel.clone().filter(|_| if own.reel_at_start { first } else { last }),
+        points,
+        ..own.clone()
+    }
+}
+
 /// Returns the effects of a part of a cable, from an arc length to another.
-pub(super) fn of_part(own: &CableScene, from: f64, to: f64) -> lariat_ancf::Effects {
+fn effects_of_part(own: &CableScene, from: f64, to: f64) -> lariat_ancf::Effects {
     let mut effects = own.effects.clone();
     if let Some(loads) = &mut effects.line_loads {
         loads.0.retain(|load| load.from < to && load.to > from);
