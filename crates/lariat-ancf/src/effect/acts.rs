@@ -3,7 +3,7 @@
 
 use super::{Effect, Target};
 use crate::dual::{Dual, Slope};
-use crate::element::gram::Control;
+use crate::element::gram::{Control, Six};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
 use crate::one_leg::OneLeg;
@@ -127,6 +127,23 @@ pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug
     fn energy(&self, _element: usize, _at: &GramState<'_, f64>) -> (f64, f64) {
         (0.0, 0.0)
     }
+
+    /// The parts of this energy that grow with the length of an element, and with its inverse,
+    /// while its control vectors stay; of what is left is the force [`on_length`](Self::on_length).
+    fn energy_by_length(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
+        self.energy(element, at)
+    }
+
+    /// Force in N on the length of an element of the bending stiffness `flexural` (N m^2) over a
+    /// step, of the energy that is not [by length](Self::energy_by_length), at control vectors that
+    /// stay: Gram numbers, and lengths in m, when it begins and ends.
+    fn on_length(&self, _element: usize, _flexural: f64, _g: [&Six<f64>; 2], _lengths: [f64; 2]) -> f64 {
+        0.0
+    }
+
+    /// Sets the length of an element over a step: its mean in m, and the mean of its inverse.
+    /// Default: it has no part in the tables.
+    fn set_length_over(&mut self, _element: usize, _mean: f64, _inverse: f64) {}
 
     /// Whether it dissipates.
     fn dissipates(&self) -> bool {

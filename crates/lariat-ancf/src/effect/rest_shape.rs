@@ -13,6 +13,13 @@
 //! rules. k_r rounds the cusp of the energy at the straight cable: between kappa_0/2 and 2 kappa_0
 //! moments change by less than 0.5 % of EI kappa_0.
 //!
+//! At the eye of a reel l changes, and k_r with it as a half angle. With `tau = S_0/2` and the half
+//! angles `w` of the rule, `U_bending = 2 EI sum_q w_q (w/l - 2 tau sqrt(w + k_r^2 l^2/4) + ...)`:
+//! the part of tau grows by neither l nor its inverse, so the force on the length over a step is
+//! that of `EI l/2 (S_0^2 + k_r^2)` and the quotient of differences of the root by k_r alone. Stock
+//! lies in its rest shape, without energy: what comes out straight takes `EI kappa_0^2/2` per
+//! length.
+//!
 //! The tangent is exact beyond kappa_0. Below, the geometric stiffness of the compressive bending
 //! moment across the curvature is left out, which keeps the step matrix definite and costs Newton
 //! iterations; [`Cable::jacobians`](crate::coupling::Linearisation::jacobians) has all of it.
@@ -183,6 +190,8 @@ pub(crate) struct RestTable {
     points: Vec<Point>,
     /// Target and rounding of the natural curvature by element, padded; empty = straight.
     natural: [Vec<f64>; 2],
+    /// Natural curvature in 1/m by element; empty = straight.
+    curvature: Vec<f64>,
 }
 
 impl Acts for RestShape {
@@ -196,16 +205,17 @@ impl Acts for RestShape {
             let middle = begin + 0.5 * element.length;
             begin += element.length;
             let (stretch, curvature) = self.at(middle);
-            rest.push((stretch * stretch - 1.0, NaturalCurvature::new(curvature, element.length)));
+            rest.push((stretch * stretch - 1.0, curvature, NaturalCurvature::new(curvature, element.length)));
         }
-        let stretched = rest.iter().any(|(excess, _)| *excess != 0.0);
-        let curved = rest.iter().any(|(_, natural)| natural.target != 0.0);
+        let stretched = rest.iter().any(|(excess, ..)| *excess != 0.0);
+        let curved = rest.iter().any(|(_, curvature, _)| *curvature != 0.0);
         let none = Vec::new;
-        let numbers = |f: fn(&NaturalCurvature<f64>) -> f64| padded(rest.iter().map(|(_, natural)| f(natural)));
+        let numbers = |f: fn(&NaturalCurvature<f64>) -> f64| padded(rest.iter().map(|(.., natural)| f(natural)));
         let table = RestTable {
-            excess: if stretched { padded(rest.iter().map(|(excess, _)| *excess)) } else { none() },
+            excess: if stretched { padded(rest.iter().map(|(excess, ..)| *excess)) } else { none() },
             points: if curved { curvature::points_of(cable.rule.bending) } else { Vec::new() },
             natural: if curved { [numbers(|n| n.target), numbers(|n| n.rounding)] } else { [none(), none()] },
+            curvature: if curved { rest.iter().map(|(_, curvature, _)| *curvature).collect() } else { none() },
         };
         (stretched || curved).then_some(table)
     }
@@ -310,6 +320,21 @@ impl ElementForce for RestTable {
         (self.excess.get(element).map_or(0.0, axial), bending)
     }
 
+    fn energy_by_length(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
+        (self.energy(element, at).0, 0.0)
+    }
+
+    fn on_length(&self, element: usize, flexural: f64, g: [&Six<f64>; 2], lengths: [f64; 2]) -> f64 {
+        let curvature = self.curvature.get(element).copied().unwrap_or(0.0);
+        NaturalCurvature::on_length(curvature, &self.points, flexural, g, lengths)
+    }
+
+    fn set_length_over(&mut self, element: usize, mean: f64, inverse: f64) {
+        let Some(&curvature) = self.curvature.get(element).filter(|curvature| **curvature != 0.0) else { return };
+        let natural = NaturalCurvature::over(curvature, mean, inverse);
+        (self.natural[0][element], self.natural[1][element]) = (natural.target, natural.rounding);
+    }
+
     fn strain(&self, element: usize, _: f64, _: &GramState<'_, f64>) -> f64 {
         self.excess.get(element).map_or(0.0, |x| -0.5 * x)
     }
@@ -337,6 +362,34 @@ impl NaturalCurvature<f64> {
         let rounding = (BLUNTING * half).powi(2).max(f64::MIN_POSITIVE);
         let target = if curvature == 0.0 { 0.0 } else { (half * half + rounding).sqrt() };
         NaturalCurvature { target, rounding }
+    }
+
+    /// That of an element whose length changes over a step, by its mean in m and the mean of its
+    /// inverse: with the stiffness of that inverse the energy of `S_0 S` stays what it is at any
+    /// length, and the rounding is half way between those at both ends.
+    fn over(curvature: f64, mean: f64, inverse: f64) -> Self {
+        let square = 0.25 * curvature * curvature;
+        let rounding = BLUNTING * BLUNTING * square * (2.0 * mean - 1.0 / inverse) * mean;
+        NaturalCurvature { target: (square * (1.0 + BLUNTING * BLUNTING)).sqrt() / inverse, rounding }
+    }
+
+    /// Returns the force in N on the length of an element over a step, as the difference of its
+    /// energy by that of its length, at control vectors that stay: of `EI l/2 (S_0^2 + k_r^2)`, and
+    /// of `-EI l S_0 S` through k_r.
+    fn on_length(curvature: f64, points: &[Point], flexural: f64, g: [&Six<f64>; 2], lengths: [f64; 2]) -> f64 {
+        let [first, last] = lengths;
+        let square = 0.25 * curvature * curvature;
+        let (target, blunt) = ((square * (1.0 + BLUNTING * BLUNTING)).sqrt(), square * BLUNTING * BLUNTING);
+        let between = 0.5 * (first * first + last * last);
+        let by_rounding = |point: &Point| {
+            let root = |g: &Six<f64>, l: f64| {
+                let w = point.squared(g).w;
+                1.0 / ((w + blunt * l * l).sqrt() + (w + blunt * between).sqrt())
+            };
+            target * blunt * (first + last) * (root(g[0], first) + root(g[1], last))
+        };
+        2.0 * flexural
+            * points.iter().map(|point| point.weight * (target * target + blunt - by_rounding(point))).sum::<f64>()
     }
 
     /// Energy beyond that of the squared curvature, over 2 EI/l.

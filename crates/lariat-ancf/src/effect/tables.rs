@@ -4,7 +4,7 @@
 use super::acts::*;
 use super::*;
 use crate::dual::Dual;
-use crate::element::gram::Control;
+use crate::element::gram::{Control, Six};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
@@ -122,6 +122,29 @@ macro_rules! generate {
                     sum = (sum.0 + axial, sum.1 + bending);
                 })*
                 sum
+            }
+
+            /// The parts of this energy that grow with the length of an element, and with its
+            /// inverse.
+            pub fn energy_by_length(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
+                let mut sum = (0.0, 0.0);
+                $(if let Some(table) = &self.$field {
+                    let (axial, bending) = table.energy_by_length(element, at);
+                    sum = (sum.0 + axial, sum.1 + bending);
+                })*
+                sum
+            }
+
+            /// Force in N on the length of an element over a step, of the energy that is not by
+            /// length.
+            pub fn on_length(&self, element: usize, flexural: f64, g: [&Six<f64>; 2], lengths: [f64; 2]) -> f64 {
+                0.0 $(+ self.$field.as_ref().map_or(0.0, |table| table.on_length(element, flexural, g, lengths)))*
+            }
+
+            /// Sets the length of an element over a step: its mean in m, and the mean of its
+            /// inverse.
+            pub fn set_length_over(&mut self, element: usize, mean: f64, inverse: f64) {
+                $(if let Some(table) = &mut self.$field { table.set_length_over(element, mean, inverse); })*
             }
 
             /// Whether any effect dissipates.

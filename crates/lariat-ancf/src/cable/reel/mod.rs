@@ -20,7 +20,7 @@
 //! eye is held by a support, or by an attachment to a body. On a body that moves freely the stock
 //! rides with it, as a point mass at the eye beside the body's own mass; [`Reel::stock`] says how
 //! much there is, and energy and momentum of the cable include it. That takes the discrete
-//! gradient. Implicit methods only. Gravity, axial laws, internal damping, a uniform rest stretch,
+//! gradient. Implicit methods only. Gravity, axial laws, internal damping, a uniform rest shape,
 //! drag, buoyancy, forces per length of your own, and line loads on all of the cable act on the
 //! element at the eye, stock at most weighs (less buoyancy); [torsion](crate::Torsion) acts on its
 //! length, and stock is not twisted; other effects are refused ([`Error::NotWithReel`]). Contact
@@ -330,11 +330,8 @@ impl Model {
 
     /// Refuses effects that the element at the eye of a reel does not carry.
     pub(crate) fn check_with_reel(&self) -> Result<(), Error> {
-        let curved = |shape: &RestShape| {
-            shape.pieces.len() > 1
-                || shape.at(0.0).1 > 0.0
-                || shape.pieces.first().is_some_and(|piece| piece.from > 0.0)
-        };
+        let in_pieces =
+            |shape: &RestShape| shape.pieces.len() > 1 || shape.pieces.first().is_some_and(|piece| piece.from > 0.0);
         let refused = [
             ("a sampled flow", self.effects.drag.as_ref().is_some_and(|drag| !drag.flow.samples.is_empty())),
             (
@@ -345,7 +342,10 @@ impl Model {
                 "line loads on a part of the cable",
                 self.effects.line_loads.as_ref().is_some_and(|loads| !loads.are_whole()),
             ),
-            ("a rest shape that is curved or in pieces", self.effects.rest_shape.as_ref().is_some_and(curved)),
+            (
+                "a rest shape in pieces: stock has no memory of where a piece begins",
+                self.effects.rest_shape.as_ref().is_some_and(in_pieces),
+            ),
         ];
         match refused.iter().find(|(_, is_there)| *is_there) {
             None => Ok(()),

@@ -46,6 +46,9 @@ impl System {
         elements.axial[e] = 0.25 * element.section.axial_stiffness * mean;
         elements.flexural[e] = 2.0 * element.section.bending_stiffness * inverse;
         elements.set_mass(e, model.inertia(element), mean);
+        if let Some(effects) = &mut forces.in_element {
+            effects.set_length_over(e, mean, inverse);
+        }
         forces.at_points.set_length(e, mean);
         if let Some(densities) = &mut forces.densities {
             densities.set_length(feeds.list[k].side, mean);
@@ -78,21 +81,37 @@ impl System {
         }
     }
 
-    /// Returns the strain energy in J of an element at an eye, axial and bending, at a length and
-    /// control vectors.
+    /// Returns the parts of the strain energy in J of an element at an eye, at a length and control
+    /// vectors, that grow with the length and with its inverse: axial and bending.
     pub(super) fn feed_energy(&self, model: &Model, feed: &FeedElement, d: &Control<f64>, length: f64) -> (f64, f64) {
         let stiffness = feed.stiffness(model, length);
         let elements = &self.forces.elements;
         let own = energy(&elements.table, &elements.bending, stiffness, d);
         let state = GramState { table: &elements.table, stiffness, g: gram(d), rates: None };
         let e = feed.element(model);
-        let of_effects = self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy(e, &state));
+        let of_effects =
+            self.forces.in_element.as_ref().map_or((0.0, 0.0), |effects| effects.energy_by_length(e, &state));
         (own.0 + of_effects.0, own.1 + of_effects.1)
+    }
+
+    /// Returns the force in N on the length of an element at an eye over a step, at control vectors
+    /// that stay, of the energy that is in no part of [`feed_energy`](Self::feed_energy).
+    pub(super) fn rest_on_length(
+        &self,
+        model: &Model,
+        feed: &FeedElement,
+        d: [&Control<f64>; 2],
+        lengths: [f64; 2],
+    ) -> f64 {
+        let Some(effects) = &self.forces.in_element else { return 0.0 };
+        let e = feed.element(model);
+        let [first, last] = d.map(gram);
+        effects.on_length(e, model.elements[e].section.bending_stiffness, [&first, &last], lengths)
     }
 
     /// Returns the forces in N that strains and internal damping exert on the length of an element
     /// at an eye: dU/dl at fixed coordinates, and the power that damping loses by a rate of the
-    /// length, over the rate.
+    /// length, over the rate; the lengths must be [set](Self::set_feeds) to it.
     pub(super) fn strain_length_force(
         &self,
         model: &Model,
@@ -111,7 +130,8 @@ impl System {
         };
         let elastic = along(None);
         let damping = if self.forces.in_element.is_some() { elastic - along(Some(velocity)) } else { 0.0 };
-        [(axial - bending) / length - elastic, damping]
+        let rest = self.rest_on_length(model, feed, [&d, &d], [length, length]);
+        [(axial - bending) / length + rest - elastic, damping]
     }
 
     /// Returns the forces that oppose changes of the control vectors of an element.

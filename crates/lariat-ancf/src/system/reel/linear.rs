@@ -27,7 +27,7 @@
 //! The row is exact, and so is the column for the motion above, else to first order of the step;
 //! but for drag, whose coefficients in the step are those of the iterate before, and for what
 //! forces per length depend on by coordinates, length, and the skew part of their derivative by
-//! velocity.
+//! velocity, and for what a natural curvature does as the length changes.
 
 use super::effects::drift;
 use super::feeds::control;
@@ -36,8 +36,9 @@ use super::{FeedElement, Source};
 use crate::Real;
 use crate::dual::{Dual, constant};
 use crate::effect::acts::Single;
+use crate::effect::tables::ElementTables;
 use crate::element::gram::Control;
-use crate::element::kernel::{ElementState, Load, Stiffness};
+use crate::element::kernel::{ElementState, Kernel, Load, Stiffness};
 use crate::element::step::ElementStep;
 use crate::element::variable_length::{Extent, dot};
 use crate::model::Model;
@@ -46,6 +47,7 @@ use crate::real::Over;
 use crate::simd::dispatch;
 use crate::state::State;
 use crate::system::StepVectors;
+use crate::system::elements::Elements;
 use crate::system::{Equations, System};
 
 /// A number with its derivatives by the 12 velocity changes of an element.
@@ -208,12 +210,14 @@ impl System {
     }
 
     /// Returns the derivatives of axial and bending energy of an element at an eye by its control
-    /// vectors.
+    /// vectors; not of the energy of a natural curvature, which has no part that its length scales.
     fn energy_gradients(&self, model: &Model, feed: &FeedElement, d: &Control<f64>, length: f64) -> [Control<f64>; 2] {
-        let Stiffness { axial, bending } = feed.stiffness(model, length);
-        [Stiffness { axial, bending: 0.0 }, Stiffness { axial: 0.0, bending }].map(|stiffness| {
-            self.feed_gradient(feed.element(model), &ElementState { stiffness, d: *d, velocity: None })
-        })
+        let (Stiffness { axial, bending }, e) = (feed.stiffness(model, length), feed.element(model));
+        let state = |axial, bending| ElementState { stiffness: Stiffness { axial, bending }, d: *d, velocity: None };
+        let Elements { table, bending: rule, .. } = &self.forces.elements;
+        let of_bending =
+            Kernel { table, bending: rule, effects: &None::<&ElementTables> }.force(&state(0.0, bending), &Single(e));
+        [self.feed_gradient(e, &state(axial, 0.0)), of_bending]
     }
 
     /// Returns the derivatives of the forces of effects at Gauss points by the acceleration,

@@ -9,8 +9,10 @@
 //!
 //! # Validity
 //!
-//! A stretch above 1/4. A rope that is slack has no tension, whatever its stretch. Internal damping
-//! counts as a part of the law.
+//! A stretch above 1/4. The moment at the eye is that of the rest shape: a cable of natural
+//! curvature that a clamp holds straight there reads too little by `EI kappa_0^2/2`, the energy
+//! that it takes from the winch to be bent. A rope that is slack has no tension, whatever its
+//! stretch. Internal damping counts as a part of the law.
 
 use crate::effect::acts::Single;
 use crate::effect::tables::ElementTables;

@@ -136,7 +136,9 @@ impl Equations<'_> {
         let begin = feed.on_length.begin.filter(|_| feed.law.is_some()).unwrap_or_else(|| energy(&motion.q[0], l0));
         let end = energy(&motion.end(), l1);
         let of_eye: f64 = (0..3).map(|x| feed.eye_force[x] * (middle[6 + x] - middle[x])).sum();
-        let elastic = strain_on_length([begin, end], [l0, l1], of_eye);
+        let [first, last] = [control(&motion.q[0], l0), control(&motion.end(), l1)];
+        let elastic = strain_on_length([begin, end], [l0, l1], of_eye)
+            + system.rest_on_length(model, feed, [&first, &last], [l0, l1]);
         let (element, dead) = (feed.with(model, mean), feed.dead(model));
         let inertial = dispatch!(system.level => element.length_force([middle, velocity, acceleration], &dead));
         OnLength { force: elastic + inertial - feed.of_points + feed.of_twist, begin: Some(begin), end }
