@@ -13,12 +13,15 @@
 //! rules. k_r rounds the cusp of the energy at the straight cable: between kappa_0/2 and 2 kappa_0
 //! moments change by less than 0.5 % of EI kappa_0.
 //!
-//! At the eye of a reel l changes, and k_r with it as a half angle. With `tau = S_0/2` and the half
-//! angles `w` of the rule, `U_bending = 2 EI sum_q w_q (w/l - 2 tau sqrt(w + k_r^2 l^2/4) + ...)`:
-//! the part of tau grows by neither l nor its inverse, so the force on the length over a step is
-//! that of `EI l/2 (S_0^2 + k_r^2)` and the quotient of differences of the root by k_r alone. Stock
-//! lies in its rest shape, without energy: what comes out straight takes `EI kappa_0^2/2` per
-//! length.
+//! At the eye of a reel l changes. With the half angles `th_q` of the bending rule it is
+//!
+//! ```text
+//! U_bending = (2 EI/l) sum_q w_q (R_q - S_0 l/2)^2,      R_q = sqrt(th_q^2 + k_r^2 l^2/4)
+//! ```
+//!
+//! of which `-2 EI S_0 sum_q w_q R_q` grows neither with l nor with its inverse: its force on the
+//! length over a step is a quotient of differences by k_r alone. Stock lies in its rest shape,
+//! without energy: what comes out straight takes `EI kappa_0^2/2` per length from the winch.
 //!
 //! The tangent is exact beyond kappa_0. Below, the geometric stiffness of the compressive bending
 //! moment across the curvature is left out, which keeps the step matrix definite and costs Newton
