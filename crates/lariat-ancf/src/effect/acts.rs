@@ -3,7 +3,7 @@
 
 use super::{Effect, Target};
 use crate::dual::{Dual, Slope};
-use crate::element::gram::{Control, Six};
+use crate::element::gram::Control;
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
 use crate::one_leg::OneLeg;
@@ -136,8 +136,8 @@ pub(crate) trait ElementForce: GramForce + DiscreteGradientForce + Clone + Debug
 
     /// Force in N on the length of an element of the bending stiffness `flexural` (N m^2) over a
     /// step, of the energy that is not [by length](Self::energy_by_length), at control vectors that
-    /// stay: Gram numbers, and lengths in m, when it begins and ends.
-    fn on_length(&self, _element: usize, _flexural: f64, _g: [&Six<f64>; 2], _lengths: [f64; 2]) -> f64 {
+    /// stay: these, and lengths in m, when it begins and ends.
+    fn on_length(&self, _element: usize, _flexural: f64, _d: [&Control<f64>; 2], _lengths: [f64; 2]) -> f64 {
         0.0
     }
 

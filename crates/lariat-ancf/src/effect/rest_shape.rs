@@ -56,7 +56,7 @@ use super::curvature::{self, Point};
 use super::{Cut, Effect, Target};
 use crate::Real;
 use crate::element::bending::gauss::middle;
-use crate::element::gram::{Six, form};
+use crate::element::gram::{Control, Six, form, gram};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::error::{Error, Requirement, require};
 use crate::scales::effect::{BLUNTING, NOISE};
@@ -230,6 +230,17 @@ impl RestTable {
         NaturalCurvature { target, rounding }
     }
 
+    /// The natural curvature of an element in 1/m, if it has one.
+    fn curvature_of(&self, element: usize) -> Option<f64> {
+        self.curvature.get(element).copied().filter(|curvature| *curvature != 0.0)
+    }
+
+    /// Axial energy in J that it adds to an element: `EA l/8 ((1 + x)^2 - 1 - 2 x a.g)`.
+    fn axial_energy(&self, element: usize, at: &GramState<'_, f64>) -> f64 {
+        let energy = |x: &f64| at.stiffness.axial * x * (1.0 + 0.5 * x - form(&at.table.a, &at.g));
+        self.excess.get(element).map_or(0.0, energy)
+    }
+
     #[inline(always)]
     fn natural<T: Real, L: Load<T>>(&self, from: &L) -> NaturalCurvature<T> {
         NaturalCurvature { target: from.load(&self.natural[0]), rounding: from.load(&self.natural[1]) }
@@ -313,27 +324,25 @@ impl DiscreteGradientForce for RestTable {
 
 impl ElementForce for RestTable {
     fn energy(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
-        // EA l/8 ((1 + x)^2 - 1 - 2 x a.g)
-        let axial = |x: &f64| at.stiffness.axial * x * (1.0 + 0.5 * x - form(&at.table.a, &at.g));
         let bending = if self.points.is_empty() {
             0.0
         } else {
             at.stiffness.bending * self.of(element).energy(&self.points, &at.g)
         };
-        (self.excess.get(element).map_or(0.0, axial), bending)
+        (self.axial_energy(element, at), bending)
     }
 
     fn energy_by_length(&self, element: usize, at: &GramState<'_, f64>) -> (f64, f64) {
-        (self.energy(element, at).0, 0.0)
+        (self.axial_energy(element, at), 0.0)
     }
 
-    fn on_length(&self, element: usize, flexural: f64, g: [&Six<f64>; 2], lengths: [f64; 2]) -> f64 {
-        let curvature = self.curvature.get(element).copied().unwrap_or(0.0);
-        NaturalCurvature::on_length(curvature, &self.points, flexural, g, lengths)
+    fn on_length(&self, element: usize, flexural: f64, d: [&Control<f64>; 2], lengths: [f64; 2]) -> f64 {
+        let Some(curvature) = self.curvature_of(element) else { return 0.0 };
+        NaturalCurvature::on_length(curvature, &self.points, flexural, d.map(gram), lengths)
     }
 
     fn set_length_over(&mut self, element: usize, mean: f64, inverse: f64) {
-        let Some(&curvature) = self.curvature.get(element).filter(|curvature| **curvature != 0.0) else { return };
+        let Some(curvature) = self.curvature_of(element) else { return };
         let natural = NaturalCurvature::over(curvature, mean, inverse);
         (self.natural[0][element], self.natural[1][element]) = (natural.target, natural.rounding);
     }
@@ -371,25 +380,26 @@ impl NaturalCurvature<f64> {
     /// inverse: with the stiffness of that inverse the energy of `S_0 S` stays what it is at any
     /// length, and the rounding is half way between those at both ends.
     fn over(curvature: f64, mean: f64, inverse: f64) -> Self {
-        let square = 0.25 * curvature * curvature;
-        let rounding = BLUNTING * BLUNTING * square * (2.0 * mean - 1.0 / inverse) * mean;
-        NaturalCurvature { target: (square * (1.0 + BLUNTING * BLUNTING)).sqrt() / inverse, rounding }
+        let unit = NaturalCurvature::new(curvature, 1.0);
+        NaturalCurvature {
+            target: unit.target / inverse,
+            rounding: unit.rounding * (2.0 * mean - 1.0 / inverse) * mean,
+        }
     }
 
     /// Returns the force in N on the length of an element over a step, as the difference of its
     /// energy by that of its length, at control vectors that stay: of `EI l/2 (S_0^2 + k_r^2)`, and
     /// of `-EI l S_0 S` through k_r.
-    fn on_length(curvature: f64, points: &[Point], flexural: f64, g: [&Six<f64>; 2], lengths: [f64; 2]) -> f64 {
+    fn on_length(curvature: f64, points: &[Point], flexural: f64, g: [Six<f64>; 2], lengths: [f64; 2]) -> f64 {
         let [first, last] = lengths;
-        let square = 0.25 * curvature * curvature;
-        let (target, blunt) = ((square * (1.0 + BLUNTING * BLUNTING)).sqrt(), square * BLUNTING * BLUNTING);
+        let NaturalCurvature { target, rounding: blunt } = NaturalCurvature::new(curvature, 1.0);
         let between = 0.5 * (first * first + last * last);
         let by_rounding = |point: &Point| {
             let root = |g: &Six<f64>, l: f64| {
                 let w = point.squared(g).w;
                 1.0 / ((w + blunt * l * l).sqrt() + (w + blunt * between).sqrt())
             };
-            target * blunt * (first + last) * (root(g[0], first) + root(g[1], last))
+            target * blunt * (first + last) * (root(&g[0], first) + root(&g[1], last))
         };
         2.0 * flexural
             * points.iter().map(|point| point.weight * (target * target + blunt - by_rounding(point))).sum::<f64>()

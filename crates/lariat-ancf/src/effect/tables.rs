@@ -4,7 +4,7 @@
 use super::acts::*;
 use super::*;
 use crate::dual::Dual;
-use crate::element::gram::{Control, Six};
+use crate::element::gram::Control;
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::linalg::BlockTridiagonal;
 use crate::real::Real;
@@ -137,8 +137,8 @@ macro_rules! generate {
 
             /// Force in N on the length of an element over a step, of the energy that is not by
             /// length.
-            pub fn on_length(&self, element: usize, flexural: f64, g: [&Six<f64>; 2], lengths: [f64; 2]) -> f64 {
-                0.0 $(+ self.$field.as_ref().map_or(0.0, |table| table.on_length(element, flexural, g, lengths)))*
+            pub fn on_length(&self, element: usize, flexural: f64, d: [&Control<f64>; 2], lengths: [f64; 2]) -> f64 {
+                0.0 $(+ self.$field.as_ref().map_or(0.0, |table| table.on_length(element, flexural, d, lengths)))*
             }
 
             /// Sets the length of an element over a step: its mean in m, and the mean of its

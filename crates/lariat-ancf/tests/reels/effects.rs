@@ -97,8 +97,9 @@ fn loads_fall_on_reels_under_every_axial_law() {
 }
 
 /// A damped rope swings in space while reels pay it out and take it in at either end, with each
-/// axial law, with a natural curvature, and under a force per length of place, velocity, time and particle: whatever the
-/// method, the energy changes by the work of the reel and of the effects, and all methods agree.
+/// axial law, with a natural curvature, and under a force per length of place, velocity, time and
+/// particle: whatever the method, the energy changes by the work of the reel and of the effects,
+/// and all methods agree.
 ///
 /// *Source.* Conservation of energy; the methods have nothing in common but the forces.
 #[test]

@@ -105,8 +105,7 @@ impl System {
     ) -> f64 {
         let Some(effects) = &self.forces.in_element else { return 0.0 };
         let e = feed.element(model);
-        let [first, last] = d.map(gram);
-        effects.on_length(e, model.elements[e].section.bending_stiffness, [&first, &last], lengths)
+        effects.on_length(e, model.elements[e].section.bending_stiffness, d, lengths)
     }
 
     /// Returns the forces in N that strains and internal damping exert on the length of an element

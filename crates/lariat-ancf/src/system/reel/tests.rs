@@ -7,17 +7,20 @@ use crate::element::side::Side;
 use crate::element::variable_length::Extent;
 use crate::one_leg::OneLeg;
 use crate::system::CableStep;
-use crate::{At, AxialLaw, Cable, Effects, Integrator, Method, Reel, RestShape, Section, StepControl};
+use crate::{At, AxialLaw, Cable, Effects, Integrator, Method, Reel, RestPiece, RestShape, Section, StepControl};
 use nalgebra::Vector3;
 
 /// Effects that change the energy of strains.
 fn effects() -> Vec<Effects> {
     let rows = vec![[-0.02, 0.0], [0.03, 100.0], [0.2, 900.0], [0.5, 2e3]];
+    let both = RestPiece { from: 0.0, stretch: 1.02, curvature: 15.0 };
     let law = |law| Effects { axial_law: Some(law), ..Effects::default() };
     vec![
         Effects::default(),
         Effects { rest_shape: Some(RestShape::stretched(0.97)), ..Effects::default() },
         Effects { rest_shape: Some(RestShape::curved(2.0)), ..Effects::default() },
+        Effects { rest_shape: Some(RestShape::curved(0.05)), ..Effects::default() },
+        Effects { rest_shape: Some(RestShape { pieces: vec![both] }), ..Effects::default() },
         law(AxialLaw::Hooke),
         law(AxialLaw::Rope),
         law(AxialLaw::Curve(rows)),

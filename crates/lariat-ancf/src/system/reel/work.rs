@@ -132,11 +132,11 @@ impl Equations<'_> {
         let (mean, [l0, l1]) = feed.over(state.time, b.h);
         let motion = StepMotion::of(feed, state, b);
         let [middle, velocity, acceleration] = &motion.mean(b.h);
-        let energy = |q: &[f64; 12], l: f64| system.feed_energy(model, feed, &control(q, l), l);
-        let begin = feed.on_length.begin.filter(|_| feed.law.is_some()).unwrap_or_else(|| energy(&motion.q[0], l0));
-        let end = energy(&motion.end(), l1);
-        let of_eye: f64 = (0..3).map(|x| feed.eye_force[x] * (middle[6 + x] - middle[x])).sum();
         let [first, last] = [control(&motion.q[0], l0), control(&motion.end(), l1)];
+        let energy = |d, l| system.feed_energy(model, feed, d, l);
+        let begin = feed.on_length.begin.filter(|_| feed.law.is_some()).unwrap_or_else(|| energy(&first, l0));
+        let end = energy(&last, l1);
+        let of_eye: f64 = (0..3).map(|x| feed.eye_force[x] * (middle[6 + x] - middle[x])).sum();
         let elastic = strain_on_length([begin, end], [l0, l1], of_eye)
             + system.rest_on_length(model, feed, [&first, &last], [l0, l1]);
         let (element, dead) = (feed.with(model, mean), feed.dead(model));
