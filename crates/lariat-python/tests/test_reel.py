@@ -75,9 +75,20 @@ def test_a_rest_shape_without_pieces_is_none() -> None:
         rope.add_reel("start", Reel(0.3))
         rope.step(1 / 60, steps=30)
     assert plain.positions == pytest.approx(empty.positions, abs=1e-9)
-    curved = hanging(effects=lariat.RestShape([lariat.RestPiece(0.0, 1.0, 0.5)]))
+
+
+def test_a_natural_curvature_goes_with_a_reel_and_pieces_are_refused() -> None:
+    """What is one along the rope passes an eye; stock does not know where a piece begins."""
+    curved = hanging(effects=lariat.RestShape([lariat.RestPiece(curvature=0.5)]))
+    out = curved.length
+    curved.add_reel("start", Reel(0.3, acceleration=1.0))
+    curved.step(1 / 60, steps=30)
+    reading = curved.reel("start")
+    # 0.3 s up to the rate
+    assert reading is not None and reading.length_out == pytest.approx(out + 0.3 * 0.5 - 0.5 * 0.3**2, abs=1e-6)
+    pieces = hanging(effects=lariat.RestShape([lariat.RestPiece(), lariat.RestPiece(1.0, curvature=0.5)]))
     with pytest.raises(errors.NotWithReelError):
-        curved.add_reel("start", Reel())
+        pieces.add_reel("start", Reel())
 
 
 def test_reels_that_cannot_be_are_named() -> None:
