@@ -131,10 +131,11 @@ impl CableSet {
     /// Frees the slope of a cable at a point between its ends, on both sides, as a hinge does:
     /// where a point load or a junction bends a cable that is limp, `sqrt(EI/T)` far below an
     /// element, so that the mesh, which is smooth, would round the corner and positions converge
-    /// with the first order. The cable becomes two that share the point; `cable` keeps the part
-    /// before it, with a load there. Returns the handle of the other part and the junction of both,
-    /// to whose node other cables can be [joined](Self::join). No moment and no torque goes through
-    /// it.
+    /// with the first order. A cable with stiffness wants a mesh that is fine there instead
+    /// ([`CableBuilder::finest`](lariat_ancf::CableBuilder::finest), `2 sqrt(EI/T)`). The cable
+    /// becomes two that share the point; `cable` keeps the part before it, with a load there.
+    /// Returns the handle of the other part and the junction of both, to whose node other cables
+    /// can be [joined](Self::join). No moment and no torque goes through it.
     ///
     /// # Errors
     /// [`Error::NoCable`]; [`Error::AlreadyAttached`] for a point that is attached or part of a

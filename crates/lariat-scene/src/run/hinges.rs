@@ -58,12 +58,32 @@ impl Hinge {
         let cable = world.scene.whole(self.kink[0]);
         let at_m = world.scene.along(self.kink[1], 0.0);
         let cable_name = world.scene.cables[cable].name.clone();
-        (error_m > SHARE * world.scene.whole_length(cable)).then_some(Warning::StiffKink {
+        let length = world.scene.whole_length(cable);
+        (error_m > SHARE * length).then(|| Warning::StiffKink {
             cable: cable_name,
             at_m,
             time_s,
             layer_m,
             error_m,
+            mesh: mesh(
+                world.scene.parts[cable].iter().map(|&part| world.scene.cables[part].elements).sum(),
+                length,
+                at_m,
+                layer_m,
+            ),
         })
     }
+}
+
+/// Returns the value of `elements` of an even mesh of a cable of a length in m that is fine at an arc length: elements of
+/// `2 sqrt(EI/T)` there, and as many more as grow from them by a ratio of 2.
+fn mesh(even: usize, length: f64, at: f64, layer: f64) -> String {
+    let finest = 2.0 * layer;
+    let doublings = (length / (even as f64 * finest)).log2().ceil().max(0.0);
+    let count = even + 2 * doublings as usize;
+    // an even mesh of as many is as fine
+    if finest * count as f64 >= length {
+        return count.to_string();
+    }
+    format!("{{ count = {count}, finest = {finest:.2e}, at = [{at:.4}] }}")
 }

@@ -46,7 +46,8 @@ table! {
         /// least two.
         elements: ElementsTable = 10, ELEMENTS;
         /// Points between the ends at which the slope is free on both sides, as at a hinge: where a point load, a junction or a ball
-        /// attachment bends a cable that is limp, `sqrt(EI/T)` far below an element. It stays one cable, and no moment goes through them.
+        /// attachment bends a cable that is limp, `sqrt(EI/T)` far below an element; one with stiffness wants `elements` that are fine there. It
+        /// stays one cable, and no moment goes through them.
         /// Need `engine = "rapier"`. An equilibrium is that of the scene.
         kinks: Option<Vec<Position>> = ("none"), Kind::List(&POSITION), "m";
         /// Shape of a solid section, or a rope or chain by name and nominal diameter; or the three stiffnesses.

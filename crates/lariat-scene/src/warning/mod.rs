@@ -118,7 +118,7 @@ pub enum Warning {
     /// A kink of a cable that is too stiff for a hinge.
     #[error(
         "cable {cable:?}: its kink at {at_m:.4} m leaves out the moment there, within {layer_m:.1e} m of it, which puts points up to {error_m:.1e} m off at \
-         {time_s:.3} s: leave the kink out, with elements shorter than {layer_m:.1e} m there (`elements = {{ count, finest, at }}`)"
+         {time_s:.3} s: leave the kink out, with `elements = {mesh}`"
     )]
     StiffKink {
         /// Name of the cable.
@@ -131,6 +131,8 @@ pub enum Warning {
         layer_m: f64,
         /// Estimate of the error of position in m.
         error_m: f64,
+        /// Value of `elements` with which the cable is resolved there without a kink.
+        mesh: String,
     },
     /// A part of a cable that turned at a wheel, whose points do not follow it.
     #[error(
