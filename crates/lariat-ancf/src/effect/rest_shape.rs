@@ -224,6 +224,13 @@ impl Acts for RestShape {
     }
 }
 
+/// Returns the axial energy that a rest shape adds to an element of `axial` = EA l/4, x its excess and
+/// `square` = a.g its mean squared stretch: `EA l/8 ((1 + x)^2 - 1 - 2 x a.g)`.
+#[inline(always)]
+fn axial_energy<T: Real>(axial: T, x: T, square: T) -> T {
+    axial * x * (x * 0.5 + 1.0 - square)
+}
+
 impl RestTable {
     fn of(&self, element: usize) -> NaturalCurvature<f64> {
         let [target, rounding] = [0, 1].map(|i| self.natural[i][element]);
@@ -235,9 +242,9 @@ impl RestTable {
         self.curvature.get(element).copied().filter(|curvature| *curvature != 0.0)
     }
 
-    /// Axial energy in J that it adds to an element: `EA l/8 ((1 + x)^2 - 1 - 2 x a.g)`.
+    /// Axial energy in J that it adds to an element.
     fn axial_energy(&self, element: usize, at: &GramState<'_, f64>) -> f64 {
-        let energy = |x: &f64| at.stiffness.axial * x * (1.0 + 0.5 * x - form(&at.table.a, &at.g));
+        let energy = |excess: &f64| axial_energy(at.stiffness.axial, *excess, form(&at.table.a, &at.g));
         self.excess.get(element).map_or(0.0, energy)
     }
 
@@ -302,6 +309,17 @@ impl DiscreteGradientForce for RestTable {
             let mut unused = Gradient { n: at.rates, viscous: at.rates };
             let half = at.stiffness.bending * 0.5;
             self.natural(from).add_hessian(&self.points, half, &at.middle, &mut unused, tangent);
+        }
+    }
+
+    #[inline(always)]
+    fn add_strain_energy<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, energy: &mut T) {
+        let g = &at.step.start;
+        if !self.excess.is_empty() {
+            *energy = *energy + axial_energy(at.stiffness.axial, from.load(&self.excess), form(&at.table.a, g));
+        }
+        if !self.points.is_empty() {
+            *energy = *energy + at.stiffness.bending * self.natural(from).energy(&self.points, g);
         }
     }
 
@@ -405,16 +423,6 @@ impl NaturalCurvature<f64> {
             * points.iter().map(|point| point.weight * (target * target + blunt - by_rounding(point))).sum::<f64>()
     }
 
-    /// Energy beyond that of the squared curvature, over 2 EI/l.
-    pub fn energy(&self, points: &[Point], g: &Six<f64>) -> f64 {
-        if self.target == 0.0 {
-            return 0.0;
-        }
-        let constant = self.target * self.target + self.rounding;
-        let root = |point: &Point| (point.squared(g).w + self.rounding).sqrt();
-        points.iter().map(|point| point.weight * (constant - 2.0 * self.target * root(point))).sum()
-    }
-
     /// 1 - S_0/S: the factor of EI kappa that is the moment, for a curvature in 1/m on an element
     /// of this length.
     pub fn moment_factor(&self, curvature: f64, length: f64) -> f64 {
@@ -424,6 +432,18 @@ impl NaturalCurvature<f64> {
 }
 
 impl<T: Real> NaturalCurvature<T> {
+    /// Energy beyond that of the squared curvature, over 2 EI/l.
+    #[inline(always)]
+    pub fn energy(&self, points: &[Point], g: &Six<T>) -> T {
+        let constant = self.target * self.target + self.rounding;
+        let mut sum = constant.splat(0.0);
+        for point in points {
+            let root = (point.squared(g).w + self.rounding).sqrt();
+            sum = sum + (constant - self.target * root * 2.0) * point.weight;
+        }
+        sum
+    }
+
     /// Adds the gradient of the energy to the weighted gradient `n`.
     #[inline(always)]
     pub fn add_gradient(&self, points: &[Point], flexural: T, g: &Six<T>, n: &mut Six<T>) {

@@ -98,6 +98,11 @@ macro_rules! generate {
             }
 
             #[inline(always)]
+            fn add_strain_energy<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, energy: &mut T) {
+                $(if let Some(table) = &self.$field { table.add_strain_energy(at, from, energy); })*
+            }
+
+            #[inline(always)]
             fn add_rest_strain<T: Real, L: Load<T>>(&self, square: T, from: &L, strain: &mut T) {
                 $(if let Some(table) = &self.$field { table.add_rest_strain(square, from, strain); })*
             }

@@ -148,6 +148,10 @@ pub(crate) trait DiscreteGradientForce {
     /// the matrix indefinite: pairs of the geometric stiffness and second derivatives.
     fn add_step_tangent<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, from: &L, tangent: &mut Hessian<T>);
 
+    /// Adds by how much the strain energy at the beginning of the step, with the factor of the
+    /// stiffness, is more than that of Green's law and of a straight cable.
+    fn add_strain_energy<T: Real, L: Load<T>>(&self, _: &GramStep<'_, T>, _: &L, _: &mut T) {}
+
     /// Adds by how much the mean axial stress over EA/2 is less than that of the Green law,
     /// `square - 1` of the squared stretch: f_0^2 - 1 of a stretch f_0 without stress.
     fn add_rest_strain<T: Real, L: Load<T>>(&self, square: T, from: &L, strain: &mut T);

@@ -202,6 +202,18 @@ impl LawTable {
         true
     }
 
+    /// Returns by how much the energy of an element of `axial` = EA l/4 is more than that of the
+    /// Green law, `(x - 1)^2/8`.
+    #[inline(always)]
+    fn excess<T: Real>(&self, g: &Six<T>, axial: T) -> T {
+        let mut sum = axial.splat(0.0);
+        for point in &self.points {
+            let x = form(point, g);
+            sum = sum + self.spline.energy(x) - (x - 1.0) * (x - 1.0) * 0.125;
+        }
+        axial * sum * (4.0 / self.points.len() as f64)
+    }
+
     /// Visits the points with their weight over EA l/4 and the secant of the energy beyond that of
     /// the Green law, `(x - 1)^2/8`, over a step between Gram numbers.
     #[inline(always)]
@@ -293,6 +305,11 @@ impl DiscreteGradientForce for LawTable {
     }
 
     #[inline(always)]
+    fn add_strain_energy<T: Real, L: Load<T>>(&self, at: &GramStep<'_, T>, _: &L, energy: &mut T) {
+        *energy = *energy + self.excess(&at.step.start, at.stiffness.axial);
+    }
+
+    #[inline(always)]
     fn add_rest_strain<T: Real, L: Load<T>>(&self, square: T, _: &L, strain: &mut T) {
         // the stress of the law is 4 dW/dx, that of the Green law x - 1
         let law = self.spline.secant(square, square).value * 4.0;
@@ -307,12 +324,7 @@ impl DiscreteGradientForce for LawTable {
 
 impl ElementForce for LawTable {
     fn energy(&self, _: usize, at: &GramState<'_, f64>) -> (f64, f64) {
-        let weight = 4.0 / self.points.len() as f64;
-        let of = |point: &Six<f64>| {
-            let x = form(point, &at.g);
-            self.spline.energy(x) - 0.125 * (x - 1.0) * (x - 1.0)
-        };
-        (at.stiffness.axial * weight * self.points.iter().map(of).sum::<f64>(), 0.0)
+        (self.excess(&at.g, at.stiffness.axial), 0.0)
     }
 
     fn strain(&self, _: usize, xi: f64, at: &GramState<'_, f64>) -> f64 {

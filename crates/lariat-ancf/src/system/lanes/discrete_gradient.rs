@@ -61,7 +61,7 @@ pub(crate) struct ElementLoss {
     pub numerical: f64,
     /// Dissipation by effects.
     pub effects: f64,
-    /// Strain energy at the beginning, that of bending in the norm of rule T1.
+    /// Strain energy at the beginning, that of bending in the norm of rule T1, at least zero.
     pub strain: f64,
 }
 
@@ -159,6 +159,9 @@ impl Elements {
             numerical = numerical + product(&of_bending, &s.second) * 0.5;
             strain = strain + stiffness.bending * form(&RHO, &s.start);
         }
+        if let Some(effects) = effects {
+            effects.add_strain_energy(&self.gram_step(stiffness, s, h), from, &mut strain);
+        }
         if effects.is_some_and(|effects| effects.needs_rates()) {
             let viscous = gradient(&sum.viscous, &s.change);
             force = shifted(&force, &viscous, rate);
@@ -185,7 +188,7 @@ impl Elements {
             group.add_force(self, &force, out);
             group.add_to(self, numerical, &mut losses[0]);
             group.add_to(self, dissipated, &mut losses[1]);
-            group.add_to(self, strain, &mut losses[2]);
+            group.add_to(self, strain.at_least(0.0), &mut losses[2]);
         }
         // the stiffness of the lanes has the factor h; what is dissipated is a power
         let [numerical, effects, strain] = losses;
