@@ -263,3 +263,49 @@ fn places_may_be_shares_of_the_length() {
         assert!(error.contains("sheave.0.at"), "{wrong}: {error}");
     }
 }
+
+/// Numbers with units are the numbers in SI units, in cables, bodies, loads and at the top, and from `--set`.
+///
+/// *Source.* The same scene in SI units.
+#[test]
+fn numbers_may_have_units() {
+    let scene = |si: bool, sets: &[&str]| {
+        let one = |number: f64, text: &str| if si { format!("{number:?}") } else { format!("{text:?}") };
+        let text = format!(
+            "duration = {}\ndt = {}\nengine = \"rapier\"\n[[body]]\nname = \"crate\"\nshape = {{ ball = {} }}\nmass = {}\nposition = [3.0, 0.0, 0.0]\n\
+             [[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]]\nlength = {}\nsection = {{ round = {} }}\ndensity = {}\n\
+             youngs_modulus = {}\n[[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"line\"\nat = \"end\"\n\
+             body = \"crate\"\n[[load]]\ncable = \"line\"\nat = {}\nforce = [0.0, -10.0, 0.0]\n",
+            one(120.0, "2 min"),
+            one(0.005, "5 ms"),
+            one(0.25, "25 cm"),
+            one(2000.0, "2 t"),
+            one(3.1, "3100 mm"),
+            one(0.012, "12 mm"),
+            one(7850.0, "7.85 g/cm^3"),
+            one(1e11, "100 GPa"),
+            one(1.5, "1.5 m"),
+        );
+        let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+        Scene::parse("scene.toml", &text, &sets, Purpose::Run)
+    };
+    let (si, units) = (scene(true, &[]).unwrap(), scene(false, &[]).unwrap());
+    assert_eq!((si.duration, si.dt), (units.duration, units.dt));
+    assert_eq!(format!("{:?}", si.bodies), format!("{:?}", units.bodies));
+    let [a, b] = [&si, &units].map(|scene| (scene.cables[0].length, *scene.cables[0].sections.first()));
+    assert!(
+        (a.0 - b.0).abs() < 1e-14 && (a.1.axial_stiffness / b.1.axial_stiffness - 1.0).abs() < 1e-14,
+        "{a:?} {b:?}"
+    );
+    assert!((a.1.mass_per_length / b.1.mass_per_length - 1.0).abs() < 1e-14);
+    let set = scene(true, &["cable.line.length=\"320 cm\""]).unwrap();
+    assert!((set.cables[0].length - 3.2).abs() < 1e-14);
+    for (wrong, says) in [
+        ("cable.line.length=\"3 kg\"", "\"3 kg\" is no number with a unit that m can be"),
+        ("cable.line.length=\"-3 m\"", "-3 is out of range"),
+        ("dt=\"5\"", "\"5\" is no number with a unit that s can be"),
+    ] {
+        let error = scene(true, &[wrong]).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}

@@ -224,8 +224,8 @@ impl Acts for RestShape {
     }
 }
 
-/// Returns the axial energy that a rest shape adds to an element of `axial` = EA l/4, x its excess and
-/// `square` = a.g its mean squared stretch: `EA l/8 ((1 + x)^2 - 1 - 2 x a.g)`.
+/// Returns the axial energy that a rest shape adds to an element of `axial` = EA l/4, x its excess
+/// and `square` = a.g its mean squared stretch: `EA l/8 ((1 + x)^2 - 1 - 2 x a.g)`.
 #[inline(always)]
 fn axial_energy<T: Real>(axial: T, x: T, square: T) -> T {
     axial * x * (x * 0.5 + 1.0 - square)

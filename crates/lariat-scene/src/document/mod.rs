@@ -10,6 +10,7 @@
 
 mod overrides;
 mod path;
+mod quantity;
 mod resolve;
 
 pub use path::KeyPath;

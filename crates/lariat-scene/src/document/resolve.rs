@@ -1,5 +1,6 @@
 //! A document checked against the schema: unknown and missing keys, types and ranges; defaults filled in.
 
+use super::quantity::quantity;
 use super::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Default, Key, Kind, Range, Table};
@@ -96,7 +97,16 @@ impl Document<'_> {
             },
             (Kind::Flag, DeValue::Boolean(flag)) => Ok(Value::Boolean(*flag)),
             (Kind::Whole(low, high), DeValue::Integer(_)) => self.whole(*low, *high, value, path),
-            (Kind::Number(range), DeValue::Integer(_) | DeValue::Float(_)) => self.number(range, value, path),
+            (Kind::Number(range), DeValue::Integer(_) | DeValue::Float(_)) => {
+                self.number(range, number_of(value), path)
+            }
+            (Kind::Number(range), DeValue::String(text)) => {
+                let unit = self.schema.find(path.keys()).map_or("", |key| key.unit);
+                match quantity(text, unit) {
+                    Ok(x) => self.number(range, x, path),
+                    Err(reason) => Err(self.error(path, Problem::NotUnderstood(reason))),
+                }
+            }
             (Kind::Numbers(names, range), DeValue::Array(items)) => {
                 self.numbers(names.len(), range, items, value, path)
             }
@@ -122,7 +132,10 @@ impl Document<'_> {
             (Kind::Either(kinds), _) => {
                 // the first of this form says what is wrong
                 let mut refused = None;
-                for kind in kinds.iter().filter(|kind| kind.form() == form(value)) {
+                let of_form = kinds.iter().filter(|kind| kind.form() == form(value));
+                let text = form(value) == Form::Text;
+                let with_unit = kinds.iter().filter(|kind| text && matches!(kind, Kind::Number(_)));
+                for kind in of_form.chain(with_unit) {
                     match self.value(kind, value, path) {
                         Ok(value) => return Ok(value),
                         Err(error) => refused = refused.or(Some(error)),
@@ -142,8 +155,7 @@ impl Document<'_> {
         }
     }
 
-    fn number(&self, range: &Range, value: &DeValue<'_>, path: &KeyPath) -> Result<Value, Error> {
-        let x = number_of(value);
+    fn number(&self, range: &Range, x: f64, path: &KeyPath) -> Result<Value, Error> {
         if range.contains(x) {
             return Ok(Value::Float(x));
         }
