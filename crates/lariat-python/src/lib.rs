@@ -21,6 +21,7 @@ mod cosimulation;
 mod error;
 mod film;
 mod integrator;
+mod quaternion;
 mod saved;
 mod scene;
 mod section;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -287,3 +288,25 @@ def test_a_body_of_mujoco_swings_as_the_reference_does() -> None:
     for fidelity in ("engineering", "game"):
         errors_at, _ = mujoco_payload.on_lariat(fidelity=fidelity)
         assert max(errors_at.values()) < 1e-2, (fidelity, errors_at)
+
+
+def test_a_quaternion_with_w_first_is_told() -> None:
+    """The identity of MuJoCo, (1, 0, 0, 0), is a half turn about x here; other rotations are read as they are, and no number as w is lost."""
+    world = lariat.World()
+    body = world.rigid_bodies[world.add_body(lariat.RigidBody.dynamic())]
+    obstacle = lariat.Obstacle.ball(1.0, position=[0.0, -9.0, 0.0], rotation=[1.0, 0.0, 0.0, 0.0])
+    calls = [
+        lambda: lariat.CoSimulation(straight()).attach("end", [LENGTH, 0, 0], [1.0, 0.0, 0.0, 0.0]),
+        lambda: setattr(body, "rotation", [-1.0, 0.0, 0.0, 0.0]),
+        lambda: straight().set_obstacles([obstacle]),
+    ]
+    for call in calls:
+        with pytest.warns(errors.ResultWarning, match="w is first"):
+            call()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", errors.ResultWarning)
+        body.rotation = [0.0, 1.0, 0.0, 0.0]
+        assert body.rotation == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-6)
+        lariat.CoSimulation(straight()).attach("end", [LENGTH, 0, 0], [0.6, 0.0, 0.0, 0.8])
+    with pytest.raises(errors.InvalidValueError):
+        body.rotation = [1.0, 1.0, 0.0, 0.0]

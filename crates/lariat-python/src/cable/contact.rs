@@ -3,6 +3,7 @@
 use super::Cable;
 use crate::convert::{data, result, vector};
 use crate::error::{Raise, raise};
+use crate::quaternion;
 use lariat_ancf::contact::{Ball, Capsule, Cuboid, Cylinder, HalfSpace, Obstacle, RigidMotion, Surface, Touch};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Contact, Error, Vector3};
@@ -99,16 +100,11 @@ impl Parameters {
 
     fn obstacle(self, key: u64, time: f64) -> Result<Obstacle, Raise> {
         let [x, y, z, w] = self.rotation;
-        let quaternion = Quaternion::new(w, x, y, z);
-        let norm = quaternion.norm();
-        if norm.is_nan() || (norm - 1.0).abs() >= 1e-3 {
-            return Err(invalid("length of the quaternion", norm, "1").into());
-        }
         let motion = RigidMotion {
             start: time,
             centre: Vector3::zeros(),
             position: self.position.into(),
-            rotation: UnitQuaternion::from_quaternion(quaternion),
+            rotation: UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)),
             velocity: self.velocity.into(),
             angular_velocity: self.angular_velocity.into(),
         };
@@ -143,6 +139,7 @@ impl Cable {
             serde_json::from_value::<Parameters>(data(&plain)?).map_err(wrong)
         });
         let parameters = parameters.collect::<PyResult<Vec<_>>>()?;
+        parameters.iter().try_for_each(|own| quaternion::rotation(py, own.rotation).map(|_| ()))?;
         let time = own.with(py, |cable| cable.time());
         let laid: Vec<_> = parameters.into_iter().map(|parameters| Laid { time, parameters }).collect();
         let made = made(&laid).map_err(raise)?;

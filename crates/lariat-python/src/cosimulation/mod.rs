@@ -21,12 +21,13 @@ mod link;
 use crate::cable::{Cable, Laid};
 use crate::convert::{Array, Place, Vector, result, table, vectors};
 use crate::error::raise;
+use crate::quaternion;
 use crate::saved;
 use crate::shared::Shared;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{self as ancf, At, Error, Vector3};
 use link::{End, Link, Motion, Wrench};
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -57,18 +58,6 @@ fn finite(what: &str, values: &[f64]) -> PyResult<()> {
             Err(raise(Error::InvalidValue { cable, what, value, expected }))
         }
     }
-}
-
-/// Returns the rotation of a quaternion x, y, z, w.
-fn rotation(q: &[f64]) -> PyResult<UnitQuaternion<f64>> {
-    finite("rotation (quaternion)", q)?;
-    let q = Quaternion::new(q[3], q[0], q[1], q[2]);
-    let norm = q.norm();
-    if (norm - 1.0).abs() > 1e-3 {
-        let (cable, what) = (None, "length of the quaternion".to_string());
-        return Err(raise(Error::InvalidValue { cable, what, value: norm, expected: "1" }));
-    }
-    Ok(UnitQuaternion::from_quaternion(q))
 }
 
 /// Returns the rows of an optional array of shape (ends, columns).
@@ -122,8 +111,10 @@ impl CoSimulation {
         finite("position (m)", position.0.as_slice())?;
         let rotation = match rotation {
             None => UnitQuaternion::identity(),
-            Some(q) if q.shape == [4] => self::rotation(&q.values)?,
-            Some(q) => return Err(q.wrong_shape("(4,)")),
+            Some(q) => match q.values[..] {
+                [x, y, z, w] if q.shape.len() == 1 => quaternion::rotation(py, [x, y, z, w])?,
+                _ => return Err(q.wrong_shape("(4,)")),
+            },
         };
         let (position, cable) = (position.0, self.cable.clone());
         let attached = self.link.compute(py, move |link| {
@@ -177,7 +168,10 @@ impl CoSimulation {
         let mut to = Vec::new();
         for (i, end) in before.iter().enumerate() {
             let position = Vector3::from_column_slice(&positions[i]);
-            let rotation = rotations.as_ref().map_or(Ok(end.motion.rotation), |q| rotation(&q[i]))?;
+            let rotation = match rotations.as_ref().map(|rows| &rows[i][..]) {
+                Some(&[x, y, z, w]) => quaternion::rotation(py, [x, y, z, w])?,
+                _ => end.motion.rotation,
+            };
             let of = |rows: &Option<Vec<Vec<f64>>>| rows.as_ref().map(|rows| Vector3::from_column_slice(&rows[i]));
             let uniform = (position - end.motion.position) / dt;
             let turning = (rotation * end.motion.rotation.inverse()).scaled_axis() / dt;

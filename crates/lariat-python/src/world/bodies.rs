@@ -4,13 +4,13 @@ use super::colliders::ColliderParameters;
 use super::{Contents, World};
 use crate::convert::{Vector, data, vector};
 use crate::error::{Raise, raise};
+use crate::quaternion;
 use lariat_ancf::{Error as CableError, Vector3};
 use lariat_rapier::convert::{ToRapier, to_vector};
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use lariat_rapier::rapier::geometry::ColliderHandle;
 use lariat_rapier::rapier::math::{Pose, Vector as Single};
 use lariat_rapier::{Error, convert};
-use nalgebra::{Quaternion, UnitQuaternion};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Deserialize;
@@ -241,12 +241,7 @@ impl World {
 
     /// Sets the rotation (x, y, z, w) of a body, at once or at the end of the next step of a kinematic one.
     fn _set_rotation(&self, py: Python<'_>, handle: Handle, q: [f64; 4], next: bool) -> PyResult<()> {
-        let quaternion = Quaternion::new(q[3], q[0], q[1], q[2]);
-        let norm = quaternion.norm();
-        if norm.is_nan() || (norm - 1.0).abs() >= 1e-3 {
-            return Err(invalid("length of the quaternion", norm, "1"));
-        }
-        let rotation = UnitQuaternion::from_quaternion(quaternion).to_rapier();
+        let rotation = quaternion::rotation(py, q)?.to_rapier();
         let set = self.0.compute(py, |contents| {
             let body = contents.body(handle)?;
             if next {

@@ -8,16 +8,6 @@ use lariat_ancf::warning::Interface;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::{CableHandle, Event, Warning};
 use pyo3::prelude::*;
-use std::ffi::CString;
-
-/// Gives lines to Python's `warnings`, where the filters of the user decide.
-pub(super) fn warn(py: Python<'_>, lines: Vec<String>) -> PyResult<()> {
-    if lines.is_empty() {
-        return Ok(());
-    }
-    let category = py.import("lariat_cables.errors")?.getattr("ResultWarning")?;
-    lines.into_iter().try_for_each(|line| PyErr::warn(py, &category, &CString::new(line)?, 1))
-}
 
 impl Contents {
     /// Returns the lines to tell of a world before its first step.

@@ -16,6 +16,7 @@ use crate::cable::Cable;
 use crate::convert::{Place, Vector, result, vector};
 use crate::error::{Raise, raise};
 use crate::integrator::fidelity;
+use crate::quaternion::warn;
 use crate::saved;
 use crate::shared::Shared;
 use bodies::{Handle, single};
@@ -153,7 +154,7 @@ impl World {
             (outcome, lines)
         });
         outcome.map_err(raise)?;
-        events::warn(py, lines)
+        warn(py, lines)
     }
 
     /// Adds a copy of a cable, and returns it as a part of this world. Raises NoCableError for one
