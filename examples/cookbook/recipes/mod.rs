@@ -14,8 +14,10 @@ mod leash;
 mod mooring;
 mod net;
 mod pulley;
+mod rov;
 mod save;
 mod seabed;
+mod teleport;
 mod tow_rope;
 mod walked_bridge;
 mod zip_line;
@@ -66,7 +68,7 @@ macro_rules! recipe {
 }
 
 /// All recipes, in the order of the page.
-pub const ALL: [Recipe; 19] = [
+pub const ALL: [Recipe; 21] = [
     recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
     recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
     recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
@@ -79,12 +81,14 @@ pub const ALL: [Recipe; 19] = [
     recipe!(net, Net, "40 x 4", 1, "game", 360),
     recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600),
     recipe!(seabed, Seabed, "1 x 52", 0, "game", 1200),
+    recipe!(rov, Rov, "1 x 15", 1, "game", 4800),
     recipe!(corner, Corner, "1 x 16", 1, "game", 180),
     recipe!(edge, Edge, "1 x 40", 1, "game", 420),
     recipe!(zip_line, ZipLine, "2 x 10", 1, "game", 240),
     recipe!(flag, Flag, "2 x 7", 1, "game", 1200),
     recipe!(lamps, Lamps, "12 x 4", 12, "game", 2400),
     recipe!(leash, Leash, "1 x 10", 1, "game", 900),
+    recipe!(teleport, Teleport, "1 x 10", 2, "game", 180),
     recipe!(save, Save, "1 x 10", 1, "game", 300),
 ];
 
