@@ -55,6 +55,10 @@
 
 #[doc(inline)]
 pub use lariat_ancf::*;
+
+/// Hides `lariat_ancf::coupling`: those who couple cables to an engine of their own take it from there.
+mod coupling {}
+
 #[cfg(feature = "bevy")]
 #[doc(no_inline)]
 pub use lariat_bevy;
