@@ -301,9 +301,9 @@ fn numbers_may_have_units() {
     let set = scene(true, &["cable.line.length=\"320 cm\""]).unwrap();
     assert!((set.cables[0].length - 3.2).abs() < 1e-14);
     for (wrong, says) in [
-        ("cable.line.length=\"3 kg\"", "\"3 kg\" is no number with a unit that m can be"),
+        ("cable.line.length=\"3 kg\"", "\"3 kg\" is no number with one of the units m, µm, mm"),
         ("cable.line.length=\"-3 m\"", "-3 is out of range"),
-        ("dt=\"5\"", "\"5\" is no number with a unit that s can be"),
+        ("dt=\"5\"", "\"5\" is no number with one of the units s, ms"),
     ] {
         let error = scene(true, &[wrong]).unwrap_err().to_string();
         assert!(error.contains(says), "{error}");

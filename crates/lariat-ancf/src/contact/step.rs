@@ -10,6 +10,7 @@ use crate::element::shape::combine;
 use crate::linalg::BlockTridiagonal;
 use crate::obstacle::Obstacle;
 use crate::one_leg::OneLeg;
+use crate::scales::contact::AGAINST;
 use crate::state::{ContactMemory, Key};
 use crate::term::{Account, Balance};
 use nalgebra::{Matrix3, Vector3};
@@ -194,11 +195,28 @@ impl ContactStep {
     pub fn remember(&self, memory: &mut Vec<ContactMemory>) {
         memory.clear();
         for point in self.points.iter().filter(|point| point.is_kept()) {
-            memory.push(point.memory(&self.obstacles[point.obstacle]));
+            let speed = if point.restitution == 0.0 { point.speed_after(self.h) } else { 0.0 };
+            memory.push(ContactMemory { speed, ..point.memory(&self.obstacles[point.obstacle]) });
         }
         // of several points on a feature the one that carries most
         memory.sort_unstable_by(|a, b| a.key().cmp(&b.key()).then(b.force.total_cmp(&a.force)));
         memory.dedup_by_key(|contact| contact.key());
+        forget_speeds(memory);
+    }
+}
+
+/// Forgets with which speed came what contacts store that do not press the cable against others: their
+/// mass is that of the cable. Contacts are in the order of their keys.
+fn forget_speeds(memory: &mut [ContactMemory]) {
+    let mut first = 0;
+    for i in 0..memory.len() {
+        let one = memory[i];
+        first += memory[first..i].iter().take_while(|other| other.element + 1 < one.element).count();
+        let near = memory[first..].iter().take_while(|other| other.element <= one.element + 1);
+        let mut others = near.filter(|other| other.obstacle != one.obstacle);
+        if one.speed > 0.0 && !others.any(|other| other.direction.dot(&one.direction) < AGAINST) {
+            memory[i].speed = 0.0;
+        }
     }
 }
 

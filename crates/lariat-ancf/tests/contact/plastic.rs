@@ -1,7 +1,8 @@
-//! Impacts without restitution of cables on each other.
+//! Impacts without restitution of cables on each other, and of bodies on cables.
 
-use crate::bench::{rope, steps, up};
-use crate::bodies::World;
+use crate::bench::{GRAVITY, rope, steps, up, with};
+use crate::bodies::{World, cube, on_body};
+use lariat_ancf::contact::{Cuboid, HalfSpace, Obstacle};
 use lariat_ancf::{Cable, Contact, Section, Vector3};
 use std::f64::consts::PI;
 
@@ -76,4 +77,56 @@ fn bars_do_not_bounce_off_each_other() {
     }
     println!("at most {worst:.3} of their speed, momentum off by {drift:.0e}");
     assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// How a cube of 0.4 by 0.2 by 0.4 m that falls 0.1 m comes back from two bars on a floor, of a radius of 25 mm and 500 kg/m^3: by how much
+/// of its fall it rises above where it touched them, and the largest growth of energy.
+fn fallen_on_bars(mass: f64, modulus: f64, rate: f64) -> [f64; 2] {
+    let radius = RADIUS;
+    let section = Section::round(2.0 * radius, modulus, 500.0).unwrap();
+    let floor = |key| Obstacle::new(key, HalfSpace { normal: up() }, Vector3::zeros(), 0.4);
+    let bars = [0.15, -0.15].map(|z| {
+        let line = [Vector3::new(0.0, radius, z), Vector3::new(1.0, radius, z)];
+        let bar = rope(1.0, &line, 10).section(section).integrator(steps(rate)).build().unwrap();
+        let half_extents = Vector3::new(0.2, 0.1, 0.2);
+        let mut bar = with(bar, vec![on_body(Cuboid { half_extents }, 0.4), floor(2)]);
+        bar.set_contact(Contact::with_friction(0.4).with_radius(radius)).unwrap();
+        bar
+    });
+    let top = 2.0 * radius + 0.1;
+    let mut body = cube(mass, 0.3, Vector3::new(0.5, top + 0.1, 0.0));
+    body.force = -GRAVITY * mass * up();
+    let mut world = World::new(bars.into(), vec![body]);
+    world.integrator = steps(rate);
+    let (mut low, mut high, mut made) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+    for _ in 0..(0.8 * rate) as usize {
+        made = made.max(world.part(1.0 / rate));
+        let height = world.bodies[0].position.y - top;
+        low = low.min(height);
+        // it has turned back
+        if height > low + 1e-9 && low < 0.01 {
+            high = high.max(height);
+        }
+    }
+    [high / 0.1, made / (mass * GRAVITY * 0.1)]
+}
+
+/// A body that falls on cables that lie does not rise again, whatever it weighs, how soft they are, and at any step.
+///
+/// *Source.* Newton's law of restitution, e = 0: a tenth of the speed is left, 1 % of the fall.
+#[test]
+fn a_body_that_falls_on_cables_on_a_floor_stays_there() {
+    let mut worst = [0.0f64; 2];
+    for modulus in [1e6, 1e8, 1e10] {
+        // 500 kg would crush the softest to nothing
+        for mass in [0.1, 1.0, 10.0, 50.0, 500.0].into_iter().filter(|mass| mass / modulus < 4e-4) {
+            for rate in [60.0, 240.0, 1000.0] {
+                let [rises, made] = fallen_on_bars(mass, modulus, rate);
+                worst = [worst[0].max(rises), worst[1].max(made)];
+                println!("{modulus:.0e} Pa, {mass} kg, {rate} Hz: rises by {rises:.4} of its fall, {made:.1e} made");
+            }
+        }
+    }
+    println!("{worst:?}");
+    assert!(worst[0] < 0.012 && worst[1] < 1e-6, "{worst:?}");
 }

@@ -2,8 +2,8 @@
 //!
 //! # Validity
 //!
-//! For keys of one physical quantity that has a table of units in the crate `uom`; of others, as bending stiffnesses in N m^2, the number in
-//! SI units is the only form. Powers may be written as `m^3` or `m³`, products as `N m` or `N · m`, degrees as `deg` or `°`.
+//! For keys of one physical quantity of which the crate `uom` knows the units, and for those of its units that nobody takes for another: its
+//! `M` is a nautical mile. Of other keys, as bending stiffnesses in N m^2, the number in SI units is the only form. Powers may be written as `m^3` or `m³`, products as `N m` or `N · m`, degrees as `deg` or `°`.
 
 use std::str::FromStr;
 use uom::si::f64::{
@@ -11,40 +11,59 @@ use uom::si::f64::{
     Pressure, Time, Torque, Velocity, Volume,
 };
 
+/// What a key of an SI unit may be written in: those units that nobody takes for another, as `uom` writes them, and its parser.
+type Units = (&'static [&'static str], fn(&str) -> Option<f64>);
+
+/// Returns the units of a key, by its SI unit.
+fn units(si: &str) -> Option<Units> {
+    macro_rules! of {
+        ($quantity:ty: $($name:literal)*) => { (&[$($name),*], |text| <$quantity>::from_str(text).ok().map(|x| x.value)) };
+    }
+    Some(match si {
+        "m" => of!(Length: "m" "µm" "mm" "cm" "km" "in" "ft"),
+        "m^2" => of!(Area: "m²" "mm²" "cm²"),
+        "m^3" => of!(Volume: "m³" "L"),
+        "s" => of!(Time: "s" "ms" "min" "h"),
+        "m/s" => of!(Velocity: "m/s" "mm/s" "cm/s" "km/h" "kn"),
+        "m/s^2" => of!(Acceleration: "m/s²"),
+        "rad" => of!(Angle: "rad" "°"),
+        "rad/s" => of!(AngularVelocity: "rad/s" "°/s" "rpm"),
+        "kg" => of!(Mass: "kg" "g" "t" "lb"),
+        "kg/m" => of!(LinearMassDensity: "kg/m" "lb/ft"),
+        "kg/m^3" => of!(MassDensity: "kg/m³" "g/cm³" "t/m³"),
+        "kg m^2" => of!(MomentOfInertia: "kg · m²"),
+        "N" => of!(Force: "N" "mN" "kN" "MN" "lbf"),
+        "N m" => of!(Torque: "N · m" "kN · m" "MN · m"),
+        "Pa" => of!(Pressure: "Pa" "kPa" "MPa" "GPa" "bar" "psi"),
+        _ => return None,
+    })
+}
+
+/// Returns whether a text begins as a number does.
+pub fn is_quantity(text: &str) -> bool {
+    text.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+}
+
 /// Reads a number that is written with a unit, in the SI unit of a key.
 ///
 /// # Errors
 /// In words, for another text.
-pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
-    let parse: fn(&str) -> Option<f64> = match unit {
-        "m" => |text| Length::from_str(text).ok().map(|x| x.value),
-        "m^2" => |text| Area::from_str(text).ok().map(|x| x.value),
-        "m^3" => |text| Volume::from_str(text).ok().map(|x| x.value),
-        "s" => |text| Time::from_str(text).ok().map(|x| x.value),
-        "m/s" => |text| Velocity::from_str(text).ok().map(|x| x.value),
-        "m/s^2" => |text| Acceleration::from_str(text).ok().map(|x| x.value),
-        "rad" => |text| Angle::from_str(text).ok().map(|x| x.value),
-        "rad/s" => |text| AngularVelocity::from_str(text).ok().map(|x| x.value),
-        "kg" => |text| Mass::from_str(text).ok().map(|x| x.value),
-        "kg/m" => |text| LinearMassDensity::from_str(text).ok().map(|x| x.value),
-        "kg/m^3" => |text| MassDensity::from_str(text).ok().map(|x| x.value),
-        "kg m^2" => |text| MomentOfInertia::from_str(text).ok().map(|x| x.value),
-        "N" => |text| Force::from_str(text).ok().map(|x| x.value),
-        "N m" => |text| Torque::from_str(text).ok().map(|x| x.value),
-        "Pa" => |text| Pressure::from_str(text).ok().map(|x| x.value),
-        "" => return Err(format!("{text:?} is no number")),
-        _ => return Err(format!("{text:?} is no number; units are not read here, numbers are in {unit}")),
+pub fn quantity(text: &str, si: &str) -> Result<f64, String> {
+    let Some((names, parse)) = units(si) else {
+        let of = if si.is_empty() { "none" } else { si };
+        return Err(format!("{text:?} is no number; its unit is {of}, and no other is read here"));
     };
     split(text)
-        .and_then(|(number, of)| parse(&format!("{number} {of}")))
-        .ok_or_else(|| format!("{text:?} is no number with a unit that {unit} can be, as \"1 {unit}\""))
+        .filter(|(_, unit)| names.contains(&unit.as_str()))
+        .and_then(|(number, unit)| parse(&format!("{number} {unit}")))
+        .ok_or_else(|| format!("{text:?} is no number with one of the units {}", names.join(", ")))
 }
 
 /// Divides a text into a number and a unit as `uom` writes it.
 fn split(text: &str) -> Option<(&str, String)> {
     let text = text.trim();
     // no "inf" and no "nan"
-    text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)).then_some(())?;
+    is_quantity(text).then_some(())?;
     let ends = text.char_indices().map(|(i, _)| i).rev();
     let number = ends.map(|i| &text[..i]).find(|number| number.parse::<f64>().is_ok_and(f64::is_finite))?;
     let unit = text[number.len()..].trim().replace("^2", "²").replace("^3", "³").replace("deg", "°");
@@ -54,7 +73,7 @@ fn split(text: &str) -> Option<(&str, String)> {
 
 #[cfg(test)]
 mod tests {
-    use super::quantity;
+    use super::{quantity, units};
 
     /// *Source.* The definitions of the units: inch, pound and nautical mile of 1959, the degree.
     #[test]
@@ -82,9 +101,23 @@ mod tests {
             ("2 min", "s", 120.0),
             ("3 kg m^2", "kg m^2", 3.0),
             ("2 cm^2", "m^2", 2e-4),
+            ("1 L", "m^3", 1e-3),
         ] {
             let read = quantity(text, unit).unwrap();
             assert!((read - expected).abs() <= 1e-14 * expected.abs(), "{text}: {read} for {expected}");
+        }
+    }
+
+    /// Every unit is one of `uom`, and the first is the SI unit.
+    #[test]
+    fn all_units_are_known() {
+        for si in
+            ["m", "m^2", "m^3", "s", "m/s", "m/s^2", "rad", "rad/s", "kg", "kg/m", "kg/m^3", "kg m^2", "N", "N m", "Pa"]
+        {
+            let (names, parse) = units(si).unwrap();
+            assert_eq!(quantity(&format!("1 {si}"), si), Ok(1.0));
+            assert_eq!(parse(&format!("1 {}", names[0])), Some(1.0), "{si}");
+            names.iter().for_each(|name| assert!(parse(&format!("1 {name}")).is_some(), "{name}"));
         }
     }
 

@@ -1,6 +1,6 @@
 //! A document checked against the schema: unknown and missing keys, types and ranges; defaults filled in.
 
-use super::quantity::quantity;
+use super::quantity::{is_quantity, quantity};
 use super::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use crate::schema::{Choose, Default, Key, Kind, Range, Table};
@@ -100,7 +100,7 @@ impl Document<'_> {
             (Kind::Number(range), DeValue::Integer(_) | DeValue::Float(_)) => {
                 self.number(range, number_of(value), path)
             }
-            (Kind::Number(range), DeValue::String(text)) => {
+            (Kind::Number(range), DeValue::String(text)) if is_quantity(text) => {
                 let unit = self.schema.find(path.keys()).map_or("", |key| key.unit);
                 match quantity(text, unit) {
                     Ok(x) => self.number(range, x, path),
