@@ -63,6 +63,8 @@ pub(crate) struct Layer {
     pub angle: f64,
     /// Whether the slope is held, so that the moment is felt.
     pub held: bool,
+    /// Whether it is at a load inside the element, whose moment is read from the mesh.
+    pub inside: bool,
 }
 
 impl Cable {
@@ -186,8 +188,46 @@ impl Cable {
                     strain: force / element.section.axial_stiffness,
                     angle,
                     held,
+                    inside: false,
                 });
             }
+        }
+    }
+
+    /// Calls `visit` with the layer at each load inside an element that is longer than it. No node
+    /// is there to turn, so the mesh has less of a moment than the elastica: `M = 2 sqrt(EI F)
+    /// sin(Theta/4)` between forces F at an angle Theta.
+    pub(crate) fn visit_inner_layers(&self, mut visit: impl FnMut(Layer)) {
+        let near = AT_NODE * self.length();
+        for load in self.model.loads.iter().filter(|load| load.force != Vector3::zeros()) {
+            let (e, xi) = self.model.locate(load.arc_length);
+            let element = &self.elements()[e];
+            let flexural = element.section.bending_stiffness;
+            let beside = [xi, 1.0 - xi].map(|share| share * element.length);
+            if beside.into_iter().any(|distance| distance <= near)
+                || flexural <= 0.0
+                || self.has_moment(load.arc_length)
+            {
+                continue;
+            }
+            let Some([before, behind]) = self.carried(e) else { continue };
+            let force = 0.5 * (before.force.norm() + behind.force.norm());
+            if before.tension.min(behind.tension) * element.length.powi(2) <= flexural {
+                continue;
+            }
+            let angle = 0.5 * before.force.angle(&behind.force);
+            let elastica = 2.0 * (flexural * force).sqrt() * (0.5 * angle).sin();
+            visit(Layer {
+                arc_length: load.arc_length,
+                element: element.length,
+                scale: (flexural / force).sqrt(),
+                moments: [self.sample_in(e, xi).moment.norm(), elastica],
+                force,
+                strain: force / element.section.axial_stiffness,
+                angle,
+                held: false,
+                inside: true,
+            });
         }
     }
 

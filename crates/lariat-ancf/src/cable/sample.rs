@@ -18,14 +18,15 @@
 //! the other node. That makes it second order (`tests/tension.rs`); the jump is given as its
 //! uncertainty.
 //!
-//! At an end and at such a node itself, tension and moment are those of
-//! equilibrium (`system/carried.rs`), which with the other side of the node make the
-//! [reaction](Cable::reactions): the tension is then the force along the tangent, from which N
-//! differs by `M kappa`, for this curvature is one per deformed length. What is added to the moment
-//! beside them to reach it is `P_2(2 xi - 1)` times a linear function, which vanishes at the Gauss
-//! points. Where equilibrium is not known, all is as beside these nodes, and the moment is raw.
-//! Where a load or a held point bends the cable within less than an element, the moment there is
-//! that of the elastica (`cable/carried.rs`).
+//! The tension that is read is the force along the tangent. From it N differs by `M kappa`, for `EI
+//! kappa^2/2` is an energy of a curvature per deformed length (with rule T1, of |r''|, by `-M
+//! kappa`), so that is taken off. At an end and at such a node itself, tension and moment are those
+//! of equilibrium (`system/carried.rs`), which with the other side of the node make the
+//! [reaction](Cable::reactions). What is added to the moment beside them to reach it is `P_2(2 xi -
+//! 1)` times a linear function, which vanishes at the Gauss points. Where equilibrium is not known,
+//! all is as beside these nodes, and the moment is raw. Where a load or a held point bends the
+//! cable within less than an element, the moment there is that of the elastica
+//! (`cable/carried.rs`).
 //!
 //! # References
 //!
@@ -55,8 +56,9 @@ pub struct Sample {
     pub slope: Vector3<f64>,
     /// Green strain (r'.r' - 1)/2, projected on linear functions inside the element.
     pub green_strain: f64,
-    /// Tension EA eps f in N, averaged at nodes, and by equilibrium, as force along the tangent, at
-    /// those that are held, loaded or ends; negative = compression.
+    /// Tension in N, the force along the tangent: `EA eps f - M kappa`, averaged at nodes, and by
+    /// equilibrium at those that are held, loaded or ends, where both sides differ on the side of
+    /// smaller arc lengths; negative = compression.
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
@@ -102,10 +104,23 @@ impl Cable {
         }
         let (from, to) = (self.node_tension(e), self.node_tension(e + 1));
         let jumps = from.into_iter().chain(to).map(|node| node.jump);
-        let Some(tension_uncertainty) = jumps.reduce(f64::max) else { return Sample { moment, ..raw } };
+        let strained = raw.tension + self.pull_of_bending(&moment, &raw.curvature);
+        let Some(tension_uncertainty) = jumps.reduce(f64::max) else {
+            return Sample { tension: strained, moment, ..raw };
+        };
         let [start, end] = missing_at_ends(from, to);
         let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
-        Sample { tension: raw.tension + missing, tension_uncertainty, moment, ..raw }
+        Sample { tension: strained + missing, tension_uncertainty, moment, ..raw }
+    }
+
+    /// Returns by how much the force in N along the tangent is more than EA eps f, by the moment in
+    /// N m and the curvature in 1/m.
+    fn pull_of_bending(&self, moment: &Vector3<f64>, curvature: &Vector3<f64>) -> f64 {
+        let product = moment.dot(curvature);
+        match self.model.rule.bending {
+            BendingRule::T1 => product,
+            _ => -product,
+        }
     }
 
     /// Returns what the moment of an element that is read raw misses to what it carries.

@@ -205,8 +205,8 @@ impl ContactStep {
     }
 }
 
-/// Forgets with which speed came what contacts store that do not press the cable against others: their
-/// mass is that of the cable. Contacts are in the order of their keys.
+/// Forgets with which speed came what contacts store that do not press the cable against others:
+/// their mass is that of the cable. Contacts are in the order of their keys.
 fn forget_speeds(memory: &mut [ContactMemory]) {
     let mut first = 0;
     for i in 0..memory.len() {

@@ -140,11 +140,12 @@ impl Model {
         core::iter::once(0.0).chain(self.elements.iter().scan(0.0, add))
     }
 
-    /// Element and local coordinate xi of an arc length in `[0, length]`.
+    /// Element and local coordinate xi of an arc length in `[0, length]`; at a node, whatever
+    /// rounding says, those of the element before it.
     pub(crate) fn locate(&self, arc_length: f64) -> (usize, f64) {
-        let mut rest = arc_length;
+        let (mut rest, near) = (arc_length, AT_NODE * self.length());
         for (e, element) in self.elements.iter().enumerate() {
-            if rest <= element.length || e + 1 == self.elements.len() {
+            if rest <= element.length + near || e + 1 == self.elements.len() {
                 return (e, (rest / element.length).clamp(0.0, 1.0));
             }
             rest -= element.length;

@@ -206,8 +206,8 @@ pub(crate) const SLOW: f64 = 0.01;
 /// of a fall is left, and with 0.2 thrown ropes stay deep.
 pub(crate) const RISE: f64 = 0.1;
 
-/// Largest product of the normals of two contacts that press a cable against each other. Derived: they
-/// are more than 120 degrees apart, so that each bears half of the other's force, or more.
+/// Largest product of the normals of two contacts that press a cable against each other. Derived:
+/// they are more than 120 degrees apart, so that each bears half of the other's force, or more.
 pub(crate) const AGAINST: f64 = -0.5;
 
 /// Speed in m/s of approach from which on a touch is an impact. Measured: by `contact --test

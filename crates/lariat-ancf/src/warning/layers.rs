@@ -9,7 +9,8 @@
 //! length. Both errors are of first order in the length of the elements beside the point, and in
 //! nothing else: a [graded](crate::CableBuilder::finest) mesh takes them away. The moment at a load
 //! or a held point whose slope is free is read as that of the elastica, on every mesh, and there is
-//! nothing to tell of it.
+//! nothing to tell of it; at a load inside an element it is that of the mesh, and is told where it
+//! is 10 % off.
 
 use super::Warning;
 use super::advised::AdvisedMesh;
@@ -23,19 +24,24 @@ impl Layers {
     /// Reads a cable.
     pub(super) fn note(&mut self, cable: &Cable) {
         let limit = ERROR * cable.length();
-        cable.visit_layers(|layer| {
-            let Layer { arc_length: at, element, scale, moments, force, strain, angle, held } = layer;
+        let mut note = |layer: Layer| {
+            let Layer { arc_length: at, element, scale, moments, force, strain, angle, held, inside } = layer;
             let [mesh, elastica] = moments;
-            let bends = held && 2.0 * (0.5 * angle).sin() > BENDS * strain.sqrt();
-            let worse = |other: CoarseMoment| mesh * other.moments[1] > other.moments[0] * elastica;
-            if elastica > 0.0 && mesh > (1.0 + MOMENT) * elastica && bends && self.moment.is_none_or(worse) {
+            let bends = (held || inside) && 2.0 * (0.5 * angle).sin() > BENDS * strain.sqrt();
+            // at a load inside an element the mesh has less
+            let ratio =
+                |[mesh, elastica]: [f64; 2]| if inside && mesh < elastica { elastica / mesh } else { mesh / elastica };
+            let worse = |other: CoarseMoment| ratio(moments) > ratio(other.moments);
+            if elastica > 0.0 && ratio(moments) > 1.0 + MOMENT && bends && self.moment.is_none_or(worse) {
                 self.moment = Some(CoarseMoment { at, moments, scale });
             }
             let error = SMEARED * (mesh - elastica) / force;
             if error > limit && self.kink.is_none_or(|other| error > other.error) {
                 self.kink = Some(CoarseKink { at, error, element });
             }
-        });
+        };
+        cable.visit_layers(&mut note);
+        cable.visit_inner_layers(&mut note);
     }
 
     /// Returns the warning about a moment.
@@ -72,10 +78,12 @@ impl Layers {
 fn advised(cable: &Cable, at: f64, finest: f64) -> AdvisedMesh {
     let (mut points, mut more) = (vec![at], 0.0);
     let mut add = |element: f64| more += (element / finest).ln().max(0.0) / GROWTH.ln();
-    cable.visit_layers(|layer| {
+    let mut add_layer = |layer: Layer| {
         points.push(layer.arc_length);
         add(layer.element);
-    });
+    };
+    cable.visit_layers(&mut add_layer);
+    cable.visit_inner_layers(&mut add_layer);
     if points.len() == 1 {
         let mean = cable.length() / cable.elements().len() as f64;
         add(mean);

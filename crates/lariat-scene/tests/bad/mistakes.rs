@@ -39,7 +39,12 @@ const MISTAKES: &[Case] = &[
     // a value of another form
     ("section = { round = 0.01 }", "section = 0.01", 7, &["found the number 0.01", "{ round = number }"]),
     ("elements = 10", "elements = 10.0", 6, &["found the number 10.0", "a whole number"]),
-    ("youngs_modulus = 1e8", "youngs_modulus = \"1e8\"", 9, &["found the text \"1e8\"", "in Pa"]),
+    (
+        "youngs_modulus = 1e8",
+        "youngs_modulus = \"1e8\"",
+        9,
+        &["\"1e8\" is no number with one of the units Pa", "in Pa"],
+    ),
     ("dt = 0.01", "dt = 0.01\ngravity = -9.81", 3, &["gravity: found the number -9.81", "[x, y, z]"]),
     ("[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]", "[[0.0, 0.0], [2.0, 0.0]]", 5, &["an array of 2 values", "rows [x, y, z]"]),
     (
