@@ -172,6 +172,18 @@ pub(crate) struct Recoil {
     pub energy: f64,
     /// Time in s by which waves and flight are over; of a part that nothing holds or loads, never.
     pub until: f64,
+    /// Time in s at which the wave of the break has been everywhere: what is overloaded until then
+    /// was so at the break.
+    #[serde(default)]
+    pub relieved: f64,
+}
+
+impl Recoil {
+    /// Returns whether a load at a time in s is that of the recoil, by the strain energy in J that
+    /// strains the part then.
+    pub fn explains(&self, time: f64, energy: f64) -> bool {
+        time <= self.relieved || energy <= self.energy
+    }
 }
 
 impl LoadRecord {

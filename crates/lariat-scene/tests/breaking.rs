@@ -76,3 +76,27 @@ fn a_cut_of_a_scene_changes_no_energy_but_what_it_reports() {
         assert!((cut.1.linear - whole.1.linear).norm() < 1e-12);
     }
 }
+
+/// A rope whose load grows slowly breaks once, on every mesh and with every host step, although the places beside the break are
+/// as good as overloaded until its wave comes.
+///
+/// *Source.* A wave of the speed sqrt(EA/m) relieves what is behind a break.
+#[test]
+fn a_slow_overload_breaks_a_rope_once() {
+    for (dt, elements, strength) in
+        [(0.005, 20, 1800.0), (0.005, 10, 1800.0), (0.001, 20, 1500.0), (1.0 / 60.0, 33, 1234.0), (0.005, 41, 1650.0)]
+    {
+        let text = format!(
+            "duration = 1.05\ndt = {dt:?}\n[[body]]\nname = \"weight\"\nmass = 30.0\nshape = {{ ball = 0.1 }}\nposition = [0.0, -4.0, 0.0]\n\
+             [[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [0.0, -4.0, 0.0]]\naxial_stiffness = 3e4\nbending_stiffness = 1e-3\n\
+             mass_per_length = 0.1\naxial_law = \"hooke\"\ndamping = {{ axial = 1e-3, bending = 1e-2 }}\nbreak = {{ tension = {strength:?} }}\n\
+             elements = {elements}\n[[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"rope\"\n\
+             at = \"end\"\nbody = \"weight\"\n[[load]]\nbody = \"weight\"\nforce = [0.0, -3000.0, 0.0]\nramp = 2.0\n"
+        );
+        let scene = Scene::parse("rope.toml", &text, &[], Purpose::Run).unwrap();
+        let run = run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap();
+        let breaks: Vec<_> = run.summary.breaks.iter().map(|parted| (parted.time_s, parted.arc_length_m)).collect();
+        println!("dt {dt}, {elements} elements, {strength} N: {breaks:?}");
+        assert_eq!(breaks.len(), 1, "dt {dt}, {elements} elements, {strength} N: {breaks:?}");
+    }
+}

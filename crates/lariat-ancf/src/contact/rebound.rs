@@ -34,12 +34,12 @@
 //! u = sqrt(2 W(D)/rho)/10, at least v                N = p(d1) min(1, max(0, 1 - s/u))
 //! ```
 //!
-//! Of two cables it is no more than a tenth of the speed vs with which what it stores came. vs is
-//! the largest mean speed with which the surfaces came together in a step since they touched,
-//! and goes with the root of W(D) while that falls. So `2 W/vs^2` is the mass per length that the
-//! contact carries, whatever bodies, cables and stiffness make it up, found from what it took up.
-//! It counts from 10 cm/s on, and until it is less than v: what is slower is pressed, or lies, and
-//! has the law of depth.
+//! Of two cables, and where contacts press a cable from both sides, it is no more than a tenth of
+//! the speed vs with which what it stores came. vs is the largest mean speed with which the
+//! surfaces came together in a step since they touched, and goes with the root of W(D) while that
+//! falls. So `2 W/vs^2` is the mass per length that the contact carries, whatever bodies, cables
+//! and stiffness make it up, found from what it took up. It counts from 10 cm/s on, and until it is
+//! less than v: what is slower is pressed, or lies, and has the law of depth.
 //!
 //! Where p is k d it is a damper of the contact that opens, of five times the critical damping,
 //! that does not pull: what fell to a depth comes up in some `10/omega`, and leaves with a tenth of
@@ -59,8 +59,8 @@
 //! Where a step does not resolve the touch the mean speed says little: what it leaves is bound when
 //! it ends ([`impact`](super::impact)), to the same e. The two meet at `h v0 = 5/2 d*`: from there
 //! on a touch ends within the step in which it begins or the next one. The mass rho is that of the
-//! cable alone; beside a much lighter body it is less, and a heavy one that falls on a cable is
-//! thrown back by up to a half of its speed.
+//! cable alone; beside a much lighter body it is less. A body that presses a cable down on what it
+//! lies on is found by vs, unless that is another cable.
 //!
 //! A bounce at v reaches 5 um. A contact that is relieved comes up by its depth, some um, at v; one
 //! that rests has `s = 0` and the law of depth. Without restitution a cable leaves with at most

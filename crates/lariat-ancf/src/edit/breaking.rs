@@ -23,8 +23,9 @@
 //! sum, since the break, of strain energy, kinetic energy about the centre of mass, and kinetic
 //! energy of the centre as seen from any node. More comes from others that do work on it. So it is
 //! with parts of a cable that was cut. A part that nothing holds and nothing is tied to has no
-//! tension but its recoil, however long. What else exceeds the limit at the time of a break breaks
-//! by its own load once its part has recoiled: a rope breaks at one place.
+//! tension but its recoil, however long. Until the wave has been everywhere in a part, no load
+//! breaks it: what is at its limit then was so at the break. What else exceeds the limit at the
+//! time of a break breaks by its own load once its part has recoiled: a rope breaks at one place.
 //!
 //! Breaking at a node
 //! changes neither shape nor motion, so mass, momenta and energy of the parts are those of the
@@ -143,13 +144,14 @@ impl Cable {
         let flight = if energy > 0.0 { self.length() / (2.0 * energy / mass).sqrt() } else { 0.0 };
         let is_loose = self.model.supports.is_empty() && self.model.loads.is_empty() && !self.has_reel();
         let until = if is_loose { f64::MAX } else { self.time() + WAVE_PASSES * wave + WAYS_OF_RECOIL * flight };
-        self.snapshot.load = LoadRecord::of_part(Recoil { energy, until });
+        let relieved = self.time() + wave;
+        self.snapshot.load = LoadRecord::of_part(Recoil { energy, until, relieved });
     }
 
     /// Returns whether the present load is a recoil of a break before.
     fn is_recoil(&self) -> bool {
         let recoil = self.snapshot.load.recoil(self.time());
-        recoil.is_some_and(|recoil| self.reading().strain_energy() <= recoil.energy)
+        recoil.is_some_and(|recoil| recoil.explains(self.time(), self.reading().strain_energy()))
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).

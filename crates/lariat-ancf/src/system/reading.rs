@@ -223,12 +223,12 @@ impl Equations<'_> {
         self.diagnostics.load_readings += self.model.elements.len() as u64;
         let reading = Reading { model: self.model, system: self.system, q, v, time, twists };
         let load = reading.largest_load(strength);
-        let recoil = self.system.load.recoil(time).map(|recoil| (recoil, reading.recoil_energy()));
-        let is_recoil = load.share > 1.0
-            && recoil.is_some_and(|(recoil, energy)| reading.strain_energy() <= recoil.energy.min(energy));
-        if let Some((_, energy)) = recoil {
-            self.system.load.lower_recoil(energy);
-        }
+        let recoils = self.system.load.recoil(time).is_some();
+        let energies = recoils.then(|| (reading.recoil_energy(), reading.strain_energy()));
+        let is_recoil = energies.is_some_and(|(left, strained)| {
+            self.system.load.lower_recoil(left);
+            self.system.load.recoil(time).is_some_and(|own| own.explains(time, strained))
+        });
         self.system.load.note(load, is_recoil);
     }
 }
