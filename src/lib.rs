@@ -57,6 +57,7 @@
 pub use lariat_ancf::*;
 
 /// Hides `lariat_ancf::coupling`: those who couple cables to an engine of their own take it from there.
+#[allow(hidden_glob_reexports)]
 mod coupling {}
 
 #[cfg(feature = "bevy")]

@@ -54,7 +54,9 @@ fn a_small_motion_on_a_coarse_mesh_is_told() {
         )
     };
     for n in [2, 4] {
-        let coarse = warned(&wire(n), Purpose::Run);
+        let mut coarse = warned(&wire(n), Purpose::Run);
+        // its load is inside an element, which bends the wire less than a node there would
+        coarse.retain(|warning| !matches!(warning, Warning::Cable(CableWarning::CoarseMoment { .. })));
         assert!(
             matches!(&coarse[..], [Warning::Cable(CableWarning::CoarseMotion { elements, .. })] if *elements == n),
             "{coarse:?}"
