@@ -174,7 +174,8 @@ impl Importer {
 
     /// Returns the drag of MuJoCo's box of inertia, on which it has a coefficient of 1 for each axis.
     ///
-    /// A box of the sides a (along the cable) and b has f = 1/2 rho a b v^2 across and 1/2 rho b^2 v^2 along.
+    /// A box of the sides a (along the cable) and b has f = 1/2 rho a b v^2 across and 1/2 rho b^2 v^2 along. That of a capsule has its half
+    /// balls, which overlap the next segments and drag in MuJoCo as they weigh.
     fn drag(&mut self, node: &Element, section: &Section, segment: f64) -> Result<Option<Drag>, Error> {
         let fluid = &self.options;
         if fluid.viscosity > 0.0 && fluid.density == 0.0 {
@@ -186,10 +187,10 @@ impl Importer {
         if fluid.density == 0.0 {
             return Ok(None);
         }
-        let (side, diameter) = (section.side, 2.0 * section.radius);
+        let ([along, side], diameter) = (section.inertia_box(segment), 2.0 * section.radius);
         if fluid.viscosity > 0.0 {
-            let linear = PI * (segment + 2.0 * side) * fluid.viscosity;
-            let below = linear / (0.5 * fluid.density * segment * side);
+            let linear = PI * (along + 2.0 * side) * fluid.viscosity;
+            let below = linear / (0.5 * fluid.density * along * side);
             self.notes.push(Note::at(
                 node,
                 format!(
@@ -202,7 +203,23 @@ impl Importer {
             node,
             "drag: MuJoCo takes each axis of a segment by itself, up to 29 % less across a diagonal of its section",
         ));
-        Ok(Some(Drag { normal: side / diameter, tangential: side * side / (segment * diameter), diameter }))
+        let per_length = side / (segment * diameter);
+        Ok(Some(Drag { normal: along * per_length, tangential: side * per_length, diameter }))
+    }
+}
+
+impl Section {
+    /// Returns the sides in m of the box that has the mass and the moments of inertia of a segment of a length in m, along and across it:
+    /// `6 (I_y + I_z - I_x)/m` and so on are their squares.
+    fn inertia_box(&self, segment: f64) -> [f64; 2] {
+        if self.ends == 0.0 {
+            return [segment, self.side];
+        }
+        let (shaft, ends, r) = (self.area * segment, self.ends, self.radius);
+        let along = r * r * (shaft / 2.0 + ends * 2.0 / 5.0);
+        let across = shaft * (segment * segment / 12.0 + r * r / 4.0)
+            + ends * (r * r * 2.0 / 5.0 + segment * segment / 4.0 + segment * r * 3.0 / 8.0);
+        [2.0 * across - along, along].map(|moment| (6.0 * moment / (shaft + ends)).sqrt())
     }
 }
 

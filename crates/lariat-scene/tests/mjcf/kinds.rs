@@ -165,6 +165,22 @@ fn options_are_gravity_and_drag() {
     assert!(read(&straight(), "<option viscosity=\"1\"/>").unwrap_err().contains("viscosity"));
 }
 
+/// That of capsules has their half balls: 40.205 mm and 8.5147 mm of a segment of 1/30 m and a radius of 5 mm.
+///
+/// *Source.* `body_inertia` and `body_mass` of MuJoCo 3.17, `6 (I_y + I_z - I_x)/m`.
+#[test]
+fn capsules_drag_with_their_ends() {
+    let model = "<composite type=\"cable\" curve=\"s\" count=\"31 1 1\" size=\"1.0\" initial=\"none\" prefix=\"D\">\
+                 <plugin plugin=\"mujoco.elasticity.cable\"><config key=\"twist\" value=\"1e7\"/><config key=\"bend\" value=\"1e6\"/></plugin>\
+                 <joint kind=\"main\" damping=\"0.002\"/><geom type=\"capsule\" size=\".005\" density=\"1500\"/></composite>";
+    let scene = read(model, "<option density=\"1.2\" wind=\"0 6 0\"/>").unwrap();
+    let drag = &table(&scene, "cable", 0)["drag"];
+    let [normal, tangential, diameter] = ["normal", "tangential", "diameter"].map(|key| drag[key].as_float().unwrap());
+    let (along, across, segment) = (0.04020548871, 0.00851469318, 1.0 / 30.0);
+    assert!((normal * diameter / (along * across / segment) - 1.0).abs() < 1e-6, "{normal}");
+    assert!((tangential * diameter / (across * across / segment) - 1.0).abs() < 1e-6, "{tangential}");
+}
+
 /// Actuators are left out while their control at zero does nothing, and refused if it does.
 #[test]
 fn actuators_with_a_bias_are_refused() {
