@@ -210,9 +210,13 @@ impl Cable {
             {
                 continue;
             }
+            let is_long = |tension: f64| tension * element.length.powi(2) > flexural;
+            if !self.reading().ends(e).iter().any(|end| is_long(end.tension)) {
+                continue;
+            }
             let Some([before, behind]) = self.carried(e) else { continue };
             let force = 0.5 * (before.force.norm() + behind.force.norm());
-            if before.tension.min(behind.tension) * element.length.powi(2) <= flexural {
+            if !is_long(before.tension.min(behind.tension)) {
                 continue;
             }
             let angle = 0.5 * before.force.angle(&behind.force);

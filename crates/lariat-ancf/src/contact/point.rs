@@ -142,6 +142,9 @@ impl ContactPoint {
     pub fn speed_after(&self, h: f64) -> f64 {
         let Evaluation { start, depth, .. } = self.now;
         let closes = (depth - start) / h;
+        if self.speed == 0.0 && closes <= IMPACT {
+            return 0.0;
+        }
         let before = self.law.at(start + self.offset).energy;
         let after = self.law.at(depth + self.offset - self.closing).energy;
         let kept = if after < before { self.speed * (after / before).sqrt() } else { self.speed };

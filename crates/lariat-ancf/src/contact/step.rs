@@ -210,11 +210,14 @@ impl ContactStep {
 fn forget_speeds(memory: &mut [ContactMemory]) {
     let mut first = 0;
     for i in 0..memory.len() {
-        let one = memory[i];
-        first += memory[first..i].iter().take_while(|other| other.element + 1 < one.element).count();
-        let near = memory[first..].iter().take_while(|other| other.element <= one.element + 1);
-        let mut others = near.filter(|other| other.obstacle != one.obstacle);
-        if one.speed > 0.0 && !others.any(|other| other.direction.dot(&one.direction) < AGAINST) {
+        let ContactMemory { element, obstacle, direction, speed, .. } = memory[i];
+        if speed == 0.0 {
+            continue;
+        }
+        first += memory[first..i].iter().take_while(|other| other.element + 1 < element).count();
+        let near = memory[first..].iter().take_while(|other| other.element <= element + 1);
+        let mut others = near.filter(|other| other.obstacle != obstacle);
+        if !others.any(|other| other.direction.dot(&direction) < AGAINST) {
             memory[i].speed = 0.0;
         }
     }

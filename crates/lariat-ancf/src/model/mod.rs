@@ -143,7 +143,7 @@ impl Model {
     /// Element and local coordinate xi of an arc length in `[0, length]`; at a node, whatever
     /// rounding says, those of the element before it.
     pub(crate) fn locate(&self, arc_length: f64) -> (usize, f64) {
-        let (mut rest, near) = (arc_length, AT_NODE * self.length());
+        let (mut rest, near) = (arc_length, AT_NODE * arc_length);
         for (e, element) in self.elements.iter().enumerate() {
             if rest <= element.length + near || e + 1 == self.elements.len() {
                 return (e, (rest / element.length).clamp(0.0, 1.0));

@@ -146,21 +146,19 @@ impl Elements {
         let (zero, rate) = (stiffness.axial.splat(0.0), 1.0 / h);
         let [axial, flexural] = self.pairs(stiffness, s, leg);
         let mut sum = Gradient { n: combined(&axial, &flexural, 1.0), viscous: [zero; 6] };
-        let mut dissipated = zero;
+        let (mut dissipated, mut strain) = (zero, self.axial_square(stiffness, &over_straight(&s.start)) * 0.5);
         if let Some(effects) = effects {
-            dissipated = effects.add_discrete_gradient(&self.gram_step(stiffness, s, h), from, &mut sum);
+            let at = self.gram_step(stiffness, s, h);
+            dissipated = effects.add_discrete_gradient(&at, from, &mut sum);
+            effects.add_strain_energy(&at, from, &mut strain);
         }
         let mut force = gradient(&sum.n, &s.mean);
         let mut numerical = self.axial_square(stiffness, &s.gram_second()) * (0.5 * leg.a);
-        let mut strain = self.axial_square(stiffness, &over_straight(&s.start)) * 0.5;
         if self.bends() {
             let of_bending = gradient(&numerical_bending(stiffness.bending, leg), &s.second);
             force = shifted(&force, &of_bending, 1.0);
             numerical = numerical + product(&of_bending, &s.second) * 0.5;
             strain = strain + stiffness.bending * form(&RHO, &s.start);
-        }
-        if let Some(effects) = effects {
-            effects.add_strain_energy(&self.gram_step(stiffness, s, h), from, &mut strain);
         }
         if effects.is_some_and(|effects| effects.needs_rates()) {
             let viscous = gradient(&sum.viscous, &s.change);
