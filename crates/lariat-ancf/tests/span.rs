@@ -71,6 +71,15 @@ fn a_length_by_tension_or_sag_is_that_of_the_catenary() {
         cable.equilibrium().unwrap();
         assert!((cable.sample(0.5 * cable.length()).unwrap().tension / tension - 1.0).abs() < 1e-6);
     }
+    // ropes of 1.9 to 4.5 times their span; all that is less is refused
+    for tension in [143.0, 104.0, 86.0] {
+        let cable = line([40.0, 0.0], 80).pretension(tension).build().unwrap();
+        let (_, length) = catenary(40.0, weight, 2e6, |force, _| force - tension);
+        println!("tension {tension}: {} for {length}", cable.length());
+        assert!((cable.length() / length - 1.0).abs() < 0.02, "{tension}: {} for {length}", cable.length());
+    }
+    let error = line([40.0, 0.0], 80).pretension(60.0).build().unwrap_err().to_string();
+    assert!(error.contains("pretension") && error.contains("at some length"), "{error}");
     // inclined, and without weight
     for gravity in [0.0, 9.81] {
         let build = line([30.0, 20.0], 20).gravity([0.0, -gravity, 0.0]).pretension(4e3);

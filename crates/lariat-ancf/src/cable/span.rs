@@ -16,7 +16,7 @@
 //! # Validity
 //!
 //! Tension falls and sag grows with the length. A cable without weight has no sag; a tension that a
-//! cable of twice the drawn length has not fallen to is refused, as is any below the least one.
+//! cable of five times the drawn length has not fallen to is refused, as is any below the least one.
 //!
 //! # References
 //!
@@ -28,7 +28,7 @@
 
 use super::Cable;
 use crate::error::{Error, require};
-use crate::scales::cable::{SPAN_ROUNDS, SPAN_WITHIN};
+use crate::scales::cable::{SPAN_ROUNDS, SPAN_SLACKEST, SPAN_WITHIN};
 use nalgebra::Vector3;
 
 /// What fixes the length of a cable.
@@ -76,17 +76,18 @@ impl Span {
         let (mut step, mut high) = (SPAN_WITHIN.sqrt(), low);
         loop {
             let length = if longer { drawn * (1.0 + step) } else { drawn / (1.0 + step) };
-            // whatever hangs from both ends hangs by half of its slack
-            let last = if let Span::Sag(sag) = self { 4.0 * sag.max(drawn) / drawn } else { 1.0 };
-            if step > if longer { last } else { 1.0 } {
-                unreached()?;
-            }
             let next = [length, missed(length)?];
             (low, high) = if longer { (high, next) } else { (next, low) };
             if (next[1] >= 0.0) == longer {
                 break;
             }
-            step *= 2.0;
+            // whatever hangs from both ends hangs by half of its slack
+            let last = if let Span::Sag(sag) = self { 4.0 * sag.max(drawn) / drawn } else { SPAN_SLACKEST };
+            let last = if longer { last } else { 1.0 };
+            if step >= last {
+                unreached()?;
+            }
+            step = last.min(2.0 * step);
         }
         for _ in 0..SPAN_ROUNDS {
             let secant = low[0] - low[1] * (high[0] - low[0]) / (high[1] - low[1]);

@@ -1,8 +1,10 @@
 //! Bodies of a model with their geoms and joints, as bodies and joints of a scene.
 //!
 //! A body without joints on the world is fixed, one with `mocap` kinematic, and all others are dynamic: their mass, centre of
-//! mass and inertia are those of `inertial`, or of all their geoms. A body of a scene has one shape.
+//! mass and inertia are those of `inertial`, or of all their geoms. One that has neither is in MuJoCo what the first segment of a composite
+//! with `initial="none"` makes it; that segment is the cable's here, and the body has a hundredth of it. A body of a scene has one shape.
 
+use super::composite::first_segment;
 use super::geom::{Geom, Shape};
 use super::surface::Surface;
 use super::tree::Element;
@@ -61,6 +63,10 @@ struct Inertia {
     centre: Vector3<f64>,
     tensor: Matrix3<f64>,
 }
+
+/// Mass of a body that is one with the first segment of a cable, in masses of that segment. Setting: none in MuJoCo, and a body of a scene has
+/// one.
+const SHARE: f64 = 0.01;
 
 /// Returns what is in a body, that in its frames too, each with the place of its frame.
 fn contents<'e>(
@@ -226,6 +232,7 @@ impl Importer {
             inside.iter().find(|(_, child)| child.name == "inertial").filter(|_| !self.options.inertia_from_geoms);
         let inertia = match given {
             Some((on, inertial)) => self.inertial(inertial, on)?,
+            None if geoms.iter().all(|(_, geom)| geom.mass == Some(0.0)) => self.of_segment(element, inside)?,
             None => of_geoms(element, &geoms)?,
         };
         let mut numbers = inertia.tensor.iter().chain(&inertia.centre).chain([&inertia.mass]);
@@ -323,6 +330,27 @@ impl Importer {
         Ok(())
     }
 
+    /// Returns what a body without a mass of its own has beside a composite that is clamped to it.
+    fn of_segment(
+        &mut self,
+        element: &Element,
+        inside: &[(Isometry3<f64>, &Element)],
+    ) -> Result<Inertia, Error> {
+        for (on, composite) in inside.iter().filter(|(_, child)| child.name == "composite") {
+            let Some([mass, length]) = first_segment(composite)? else { continue };
+            let centre = (on * self.local(composite, "offset")?).translation.vector;
+            let (mass, moment) = (SHARE * mass, SHARE * mass * length * length / 3.0);
+            self.notes.push(Note::at(
+                element,
+                format!(
+                    "moves with no mass but that of a segment of its composite, which the cable has here: the body has {mass:.2e} kg beside it"
+                ),
+            ));
+            return Ok(Inertia { mass, centre, tensor: moment * Matrix3::identity() });
+        }
+        Err(element.wrong("moves without a mass: it has no geom, no inertial, and no composite with initial=\"none\""))
+    }
+
     fn inertial(&self, element: &Element, on: &Isometry3<f64>) -> Result<Inertia, Error> {
         let place = on * self.local(element, "pos")?;
         let Some(mass) = element.number("mass")?.filter(|mass| *mass > 0.0) else {
@@ -350,7 +378,7 @@ fn of_geoms(element: &Element, geoms: &[(&Element, Geom)]) -> Result<Inertia, Er
         parts.push((mass, geom.place.translation.vector, inertia));
     }
     if sum.mass.is_nan() || sum.mass <= 0.0 {
-        return Err(element.wrong("moves without a mass: it has no geom and no inertial"));
+        return Err(element.wrong("moves without a mass"));
     }
     sum.centre /= sum.mass;
     for (mass, centre, inertia) in parts {

@@ -23,16 +23,7 @@ struct Section {
 impl Importer {
     pub(super) fn composite(&mut self, node: &Element, root: usize, place: &Isometry3<f64>) -> Result<(), Error> {
         let here = place * self.local(node, "offset")?;
-        let local = match node.list("vertex")? {
-            Some(numbers) if numbers.len() >= 6 && numbers.len() % 3 == 0 => {
-                numbers.chunks_exact(3).map(Vector3::from_column_slice).collect()
-            }
-            Some(numbers) => {
-                return Err(node.wrong(format!("vertex has {} numbers: needs 6, 9, ...", numbers.len())));
-            }
-            None => curve_of(node)?,
-        };
-        let vertices = in_world(&here, &local);
+        let vertices = in_world(&here, &vertices_of(node)?);
         if vertices.windows(2).any(|pair| (pair[1] - pair[0]).norm() <= 1e-9) {
             return Err(node.wrong("two neighbouring vertices are one point"));
         }
@@ -287,6 +278,26 @@ fn section(geom: &Element) -> Result<Section, Error> {
             (16.0 / 3.0 * a.max(b) * a.min(b).powi(3) / PI).powf(0.25)
         ))),
         (kind, _) => Err(geom.wrong(format!("a {kind} of size {size:?}: capsules, cylinders and square boxes are read"))),
+    }
+}
+
+/// Returns mass in kg and length in m of the first segment of a composite that is one with its body.
+pub(super) fn first_segment(node: &Element) -> Result<Option<[f64; 2]>, Error> {
+    let (Some(geom), Some("none")) = (node.named("geom").next(), node.attribute("initial")) else { return Ok(None) };
+    let vertices = vertices_of(node)?;
+    let (length, section) = ((vertices[1] - vertices[0]).norm(), section(geom)?);
+    let by_density = geom.number("density")?.unwrap_or(1000.0) * (section.area * length + section.ends);
+    let mass = geom.number("mass")?.unwrap_or(by_density);
+    Ok((mass > 0.0).then_some([mass, length]))
+}
+
+fn vertices_of(node: &Element) -> Result<Vec<Vector3<f64>>, Error> {
+    match node.list("vertex")? {
+        Some(numbers) if numbers.len() >= 6 && numbers.len() % 3 == 0 => {
+            Ok(numbers.chunks_exact(3).map(Vector3::from_column_slice).collect())
+        }
+        Some(numbers) => Err(node.wrong(format!("vertex has {} numbers: needs 6, 9, ...", numbers.len()))),
+        None => curve_of(node),
     }
 }
 

@@ -137,6 +137,23 @@ def models(s):
             ),
             end,
         ),
+        # bodies that are one with the first segment
+        "hinged": (
+            model(
+                '<body name="hand" pos="0 0 1"><joint type="hinge" axis="0 1 0"/>'
+                + composite(10 * s, offset="0 0 0", length=0.5, bend="1e8", damping=0.01)
+                + "</body>"
+            ),
+            end,
+        ),
+        "thrown": (
+            model(
+                '<body name="hand" pos="0 0 1" euler="0 20 0"><freejoint/>'
+                + composite(10 * s, offset="0 0 0", shape=circle(10 * s), config='<config key="flat" value="true"/>', **ARC)
+                + "</body>",
+            ),
+            end,
+        ),
         "springs": (model(composite(20 * s, joint=f'stiffness="{0.5 * s}"')), end),
         "flex": (
             f"""<mujoco>
