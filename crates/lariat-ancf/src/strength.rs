@@ -176,6 +176,9 @@ pub(crate) struct Recoil {
     /// was so at the break.
     #[serde(default)]
     pub relieved: f64,
+    /// Number of breaks by which it became what it is.
+    #[serde(default)]
+    pub breaks: u32,
 }
 
 impl Recoil {
@@ -236,6 +239,11 @@ impl LoadRecord {
     /// Returns what the cable recoils by, if it is a part of one that broke, at a time in s.
     pub fn recoil(&self, time: f64) -> Option<Recoil> {
         self.recoil.filter(|recoil| time < recoil.until)
+    }
+
+    /// Returns by how many breaks the cable became what it is.
+    pub fn breaks(&self) -> u32 {
+        self.recoil.map_or(0, |recoil| recoil.breaks)
     }
 
     /// Forgets the readings between which the load is judged, because a program changes the state.

@@ -170,8 +170,8 @@ fn the_moment_at_a_load_is_that_of_its_layer_on_every_mesh() {
     }
 }
 
-/// So is that at a point that is held amid and turns freely, with different tensions on its sides, where an element is no
-/// longer than 0.4 m; in longer ones it may be a third too large.
+/// So is that at a point that is held amid and turns freely, with different tensions on its sides, as exact as the mesh has
+/// the tension: an element of 1.7 m rounds the corner, which takes length, and the moment is a sixth too large with the force.
 ///
 /// *Source.* The same line with 600 graded elements, where the moment is that of equilibrium.
 #[test]
@@ -188,10 +188,12 @@ fn the_moment_at_a_held_point_is_that_of_its_layer() {
     let fine = settled(fine.finest(0.005, [At::Start, At::ArcLength(at), At::End]));
     let expected = fine.sample(at).unwrap().moment;
     for elements in [12, 25, 50, 100, 200, 400] {
-        let read = settled(build(elements).0).sample(at).unwrap().moment;
+        let cable = settled(build(elements).0);
+        let read = cable.sample(at).unwrap().moment;
         println!("{elements} elements: {read:?} for {expected:?}");
         let off = (read - expected).norm() / expected.norm();
-        assert!(off < if elements < 50 { 0.35 } else { 0.06 }, "{elements}: {off}");
+        assert!(off < if elements < 50 { 0.18 } else { 0.06 }, "{elements}: {off}");
+        assert!(off < 0.1 || !cable.warnings().is_empty(), "{elements}: {off} and not told");
     }
 }
 

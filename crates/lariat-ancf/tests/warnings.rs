@@ -6,8 +6,8 @@ use common::Random;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::fold;
 use lariat_ancf::{
-    At, AxialLaw, Cable, CableBuilder, Damping, Effects, Integrator, Level, Method, PointLoad, RopeMaterial, Section,
-    StepControl, Vector3, Warning,
+    At, AxialLaw, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, Level, Method, PointLoad,
+    RopeMaterial, Section, StepControl, Vector3, Warning,
 };
 use std::f64::consts::PI;
 
@@ -202,6 +202,45 @@ fn measures_that_were_not_meant_are_told() {
     assert!(told(102.0, 40, 0.1).iter().any(slack) && !told(5.9, 40, 0.1).iter().any(slack));
 }
 
+/// The modulus given as EA, a diameter of drag in mm, a wind in km/h and strains of a curve in percent are told by the cable itself; so
+/// is a tension beyond the last row of a curve. None is told where they are as they should be.
+#[test]
+fn forces_and_fluids_that_were_not_meant_are_told() {
+    let told = |axial: f64, drag: Drag, law: AxialLaw, pull: f64| -> Vec<&str> {
+        let section = Section::from_stiffness(axial, 1e-2, 0.14).unwrap();
+        let effects = Effects { drag: Some(drag), axial_law: Some(law), ..Effects::default() };
+        let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * 2.0]).section(section).gravity([0.0; 3]);
+        let line = line.effects(effects).fix(At::Start).load(PointLoad::force(2.0, [pull, 0.0, 0.0]));
+        let mut line = line.build().unwrap();
+        line.equilibrium().unwrap();
+        let kind = |warning: Warning| match warning {
+            Warning::FastWaves { .. } => "modulus",
+            Warning::ThickDrag { .. } => "diameter",
+            Warning::FastFlow { is_liquid, .. } => ["wind", "current"][usize::from(is_liquid)],
+            Warning::SoftCurve { .. } => "percent",
+            Warning::BeyondCurve { .. } => "beyond",
+            _ => "",
+        };
+        line.warnings().into_iter().map(kind).filter(|kind| !kind.is_empty()).collect()
+    };
+    let drag = |density: f64, diameter: f64, speed: f64| {
+        let flow = Flow::uniform([0.0, 0.0, 0.1 * speed]).with_history([[0.0, 0.0], [1e3, 0.0], [2e3, 10.0]]);
+        Drag { diameter: Some(diameter), ..Drag::new(density, 1.2, 0.0, flow) }
+    };
+    let fine = || drag(1.2, 0.006, 60.0);
+    let curve = |scale: f64| AxialLaw::Curve(vec![[0.0, 0.0], [0.1 * scale, 5e3], [0.2 * scale, 3e4]]);
+    let none = Vec::<&str>::new();
+    assert_eq!(told(1.6e6, fine(), AxialLaw::Hooke, 1e3), none);
+    // 12 mm of steel: 2.1e11 Pa in the place of 1.6e6 N
+    assert_eq!(told(2.1e11, fine(), AxialLaw::Hooke, 1e3), ["modulus"]);
+    assert_eq!(told(1.6e6, drag(1.2, 6.0, 60.0), AxialLaw::Hooke, 1e3), ["diameter"]);
+    assert_eq!(told(1.6e6, drag(1.2, 0.006, 200.0), AxialLaw::Hooke, 1e3), ["wind"]);
+    assert_eq!(told(1.6e6, drag(1025.0, 0.006, 30.0), AxialLaw::Hooke, 1e3), ["current"]);
+    assert_eq!(told(1.6e6, fine(), curve(1.0), 2.9e4), none);
+    assert_eq!(told(1.6e6, fine(), curve(1.0), 3.1e4), ["beyond"]);
+    assert_eq!(told(1.6e6, fine(), curve(100.0), 0.0), ["percent"]);
+}
+
 /// Random sections: none of those that exist is doubted (0.5 mm to 1.4 m thick, 1e5 to 1e12 Pa, 12 to 1e5 times as long as thick), all that
 /// were given in other units are: millimetres read as metres, GPa read as Pa, MPa of metals read as Pa, and rods that are no cables.
 ///
@@ -310,6 +349,12 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::MuchSlack { cable: cable(), length_m: 4.0, drawn_m: 1.0 },
         Warning::SlowStretch { cable: cable(), axial_s: 2.0 },
         Warning::ThickElements { cable: cable(), element_m: 0.01, diameter_m: 0.02 },
+        Warning::ThickDrag { cable: cable(), diameter_m: 12.0 },
+        Warning::FastFlow { cable: cable(), speed_m_s: 30.0, density_kg_m3: 1025.0, is_liquid: true },
+        Warning::SoftCurve { cable: cable(), strain: 20.0, force_n: 4e4, axial_stiffness_n: 3e5 },
+        Warning::StartsInside { cable: cable(), obstacle: 1, arc_length_m: 0.5, depth_m: 0.1 },
+        Warning::BeyondCurve { cable: cable(), time_s, tension_n: 2.0, strain: 0.1, force_n: 1.0 },
+        Warning::BreaksAgain { cable: cable(), breaks: 3 },
         Warning::EnergyMade { cable: cable(), time_s, made_j: 1.0, scale_j: 2.0, discrete_gradient: false },
         Warning::EnergyLost { cable: cable(), time_s, lost_j: 1.0, scale_j: 2.0 },
         Warning::FastReel { cable: cable(), time_s, ratio: 0.5 },

@@ -33,6 +33,20 @@ def test_a_slack_cable_hangs_in_the_catenary() -> None:
     assert sum(r.force[1] for r in rope.reactions()) == pytest.approx(weight * length, rel=1e-9)
 
 
+def test_a_length_by_pretension_or_sag_is_that_of_the_catenary() -> None:
+    """Length and sag of the inextensible catenary of parameter a = H/w: 2 a sinh(b/2a) and a (cosh(b/2a) - 1) (textbook)."""
+    span, weight, a = 35.0, 3.0 * 9.81, 8.5
+    length, sag = 2 * a * np.sinh(span / (2 * a)), a * (np.cosh(span / (2 * a)) - 1)
+    line = ([[0, 0, 0], [span, 0, 0]], lariat.Section(1e8, 0.0, 3.0))
+    held = {"elements": 60, "fix": ["start", "end"], "rule": "projected-none"}
+    assert lariat.Cable(*line, pretension=a * weight, **held).length == pytest.approx(length, rel=1e-4)
+    assert lariat.Cable(*line, sag=sag, **held).length == pytest.approx(length, rel=1e-4)
+    with pytest.raises(TypeError, match="one of length, pretension and sag"):
+        lariat.Cable(*line, sag=sag, length=length, **held)
+    with pytest.raises(errors.InvalidValueError, match="pretension"):
+        lariat.Cable(*line, pretension=1.0, **held)
+
+
 def test_the_pendulum_falls_as_the_reference_does() -> None:
     """Tip after 0.5 s: (1.3108, -1.2034) m, converged solution of an independent program."""
     cable = pendulum(elements=10)

@@ -11,6 +11,25 @@ from lariat_cables import Collider, Contact, Obstacle, RigidBody, errors
 SECTION = lariat.Section(2e4, 1e-3, 0.1, diameter=0.01)
 
 
+def test_a_rope_that_starts_in_a_floor_is_told_the_cause_and_nothing_else() -> None:
+    section = lariat.Section(5e3, 2e-3, 0.04, diameter=0.008)
+
+    def line(height: float) -> lariat.Cable:
+        points = [[0, height, 0], [1.2, height, 0]]
+        rope = lariat.Cable(points, section, length=1.25, elements=20, fix=["start", "end"], fidelity="game", effects=[Contact()])
+        rope.set_obstacles([Obstacle.half_space([0, 1, 0])])
+        return rope
+
+    # slack, it sags by 0.16 m
+    (told,) = line(0.02).warnings()
+    assert "deep in obstacle 0" in told and "`lariat.Contact`" in told
+    rope = line(0.02)
+    rope.step(0.002, steps=100)
+    assert "deep in obstacle 0" in rope.warnings()[0] and not any("elements=" in line for line in rope.warnings())
+    assert "deep in obstacle 0" in lariat.CoSimulation(rope).cable.warnings()[0]
+    assert line(0.2).warnings() == []
+
+
 def test_a_rope_at_rest_on_a_floor_is_carried_by_it() -> None:
     rope = lariat.Cable([[0, 0.006, 0], [1, 0.006, 0]], SECTION, elements=10, fidelity="game", effects=[Contact(0.3), lariat.Damping(1e-3, 1e-3)])
     rope.set_obstacles([Obstacle.half_space([0, 1, 0])])

@@ -31,16 +31,21 @@ impl Cable {
             Some(key) => Err(Error::ObstacleKey { cable: self.model.name.clone(), key }),
             None => checked.map_err(|e| e.of_cable(&self.model.name)),
         };
-        let time = self.time();
+        let (time, mut is_new) = (self.time(), false);
         let own = &mut self.model.obstacles.0;
         match outcome {
             Ok(()) => {
                 let (old, new) = own.split_at(before);
+                let is_known = |o: &Obstacle| old.binary_search_by_key(&o.key, |old| old.key).is_ok();
+                is_new = !new.iter().all(is_known);
                 let posed = new.iter().find_map(|obstacle| obstacle.posed(old, time));
                 self.posed = posed.map(|(key, distance)| (time, key, distance));
                 drop(own.drain(..before));
             }
             Err(_) => own.truncate(before),
+        }
+        if is_new {
+            self.note_inside();
         }
         outcome
     }

@@ -124,7 +124,8 @@ impl Cable {
                 let share = (strain - 0.5 * (stretch * stretch - 1.0)) * (1.0 + 2.0 * strain).max(0.0).sqrt();
                 if share > largest.0 {
                     let stiffness = element.section.axial_stiffness;
-                    let tension = match self.model.axial_stiffness(element) == stiffness {
+                    let is_green = self.effects().axial_law.is_none();
+                    let tension = match is_green && self.model.axial_stiffness(element) == stiffness {
                         true => share * stiffness,
                         false => self.reading().pull(e, xi, &at).tension,
                     };

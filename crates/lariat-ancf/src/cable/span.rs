@@ -8,10 +8,11 @@
 //! the statics of the cable give, and L is the root of
 //!
 //! ```text
-//! T(L/2; L) = T_0   or   max_s d(s; L) = d_0        d: distance from the drawn line, along gravity
+//! |F(L/2; L)| = T_0   or   max_s d(s; L) = d_0        d: distance from the drawn line, along gravity
 //! ```
 //!
-//! by bisection of a bracket, with the secant wherever it is inside.
+//! by bisection of a bracket, with the secant wherever it is inside. F is in equilibrium with the
+//! reactions, so it is right where the elements are too long to read a tension from their strain.
 //!
 //! # Validity
 //!
@@ -62,7 +63,7 @@ impl Span {
         let missed = |length: f64| -> Result<f64, Error> {
             let cable = hanging(length)?;
             Ok(match self {
-                Span::Tension(_) => 1.0 - cable.sample(0.5 * cable.length())?.tension / goal,
+                Span::Tension(_) => 1.0 - cable.force_at_middle()? / goal,
                 Span::Sag(_) => cable.sag(ends)? / goal - 1.0,
             })
         };
@@ -110,6 +111,14 @@ impl Span {
 }
 
 impl Cable {
+    /// Returns the magnitude in N of the force at the middle, by equilibrium.
+    fn force_at_middle(&self) -> Result<f64, Error> {
+        let half = 0.5 * self.length();
+        let (e, xi) = self.model.locate(half);
+        let force = self.carried(e).map(|[first, last]| first.force.lerp(&last.force, xi).norm());
+        force.map_or_else(|| Ok(self.sample(half)?.tension), Ok)
+    }
+
     /// Returns the largest distance in m from the drawn line along gravity.
     fn sag(&self, [first, last]: &[Vector3<f64>; 2]) -> Result<f64, Error> {
         let down = self.gravity().try_normalize(0.0);

@@ -27,6 +27,10 @@
 //! breaks it: what is at its limit then was so at the break. What else exceeds the limit at the
 //! time of a break breaks by its own load once its part has recoiled: a rope breaks at one place.
 //!
+//! What flies freely and snaps taut again, behind a body that accelerates say, breaks by a load of its
+//! own, and without damping that goes on until the parts are short: how often is a matter of what a
+//! real rope dissipates, and [`Warning::BreaksAgain`](crate::Warning::BreaksAgain) says so.
+//!
 //! Breaking at a node
 //! changes neither shape nor motion, so mass, momenta and energy of the parts are those of the
 //! whole to rounding ([`Break`]); the strain energy becomes motion in the steps that follow. A
@@ -97,9 +101,10 @@ impl Cable {
         self.snapshot.load.take();
         let Some(arc_length) = self.inner_node(load.arc_length) else { return Ok(None) };
         let Load { cause, tension, damping, strain, time, .. } = load;
+        let breaks = 1 + self.snapshot.load.breaks();
         let (mut rest, how) =
             self.part(arc_length, |cable| Break { cause, tension, damping, strain, time, ..cable })?;
-        [self, &mut rest].into_iter().for_each(Cable::recoil);
+        [self, &mut rest].into_iter().for_each(|part| part.recoil(breaks));
         Ok(Some((rest, how)))
     }
 
@@ -134,8 +139,9 @@ impl Cable {
         Ok([(rest, how)].into_iter().chain(before).chain(behind).collect())
     }
 
-    /// Lets a part of a cable that broke or was cut recoil: it breaks no more by that.
-    fn recoil(&mut self) {
+    /// Lets a part of a cable that broke or was cut recoil: it breaks no more by that. `breaks` made
+    /// it what it is.
+    fn recoil(&mut self, breaks: u32) {
         let energy = self.reading().strain_energy();
         let of = |f: &dyn Fn(&Element) -> f64| self.elements().iter().map(f).sum::<f64>();
         let wave = of(&|e| e.length * (self.model.inertia(e) / e.section.axial_stiffness).sqrt());
@@ -145,7 +151,7 @@ impl Cable {
         let is_loose = self.model.supports.is_empty() && self.model.loads.is_empty() && !self.has_reel();
         let until = if is_loose { f64::MAX } else { self.time() + WAVE_PASSES * wave + WAYS_OF_RECOIL * flight };
         let relieved = self.time() + wave;
-        self.snapshot.load = LoadRecord::of_part(Recoil { energy, until, relieved });
+        self.snapshot.load = LoadRecord::of_part(Recoil { energy, until, relieved, breaks });
     }
 
     /// Returns whether the present load is a recoil of a break before.
@@ -178,7 +184,8 @@ impl Cable {
         let at = At::ArcLength(self.arc_length(at)?);
         let (mut rest, how) = self.divide_at(at)?;
         if self.strength().is_limited() {
-            [self, &mut rest].into_iter().for_each(Cable::recoil);
+            let breaks = self.snapshot.load.breaks();
+            [self, &mut rest].into_iter().for_each(|part| part.recoil(breaks));
         }
         Ok((rest, how))
     }

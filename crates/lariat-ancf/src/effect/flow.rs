@@ -109,6 +109,13 @@ impl Flow {
         }
     }
 
+    /// Returns the largest speed in m/s by its tables, without samples and waves.
+    pub(crate) fn largest_speed(&self) -> f64 {
+        let largest = |rows: &[[f64; 2]]| rows.iter().map(|row| row[1].abs()).reduce(f64::max).unwrap_or(1.0);
+        let by_height = self.profile.as_ref().map_or(1.0, |profile| largest(&profile.rows));
+        self.velocity.norm() * by_height * largest(&self.history)
+    }
+
     /// Returns the velocity where the profile is 1.
     pub(crate) fn in_time(&self, time: f64) -> Vector3<f64> {
         if self.history.is_empty() { self.velocity } else { self.velocity * interpolate(&self.history, time) }

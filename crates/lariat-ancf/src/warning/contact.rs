@@ -21,7 +21,7 @@
 use super::Warning;
 use crate::cable::Cable;
 use crate::obstacle::{Obstacle, RigidMotion};
-use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, RUN, SLID};
+use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, INSIDE, RUN, SLID};
 use crate::state::PairMemory;
 use crate::watch::{Contacts, Excess, Sticking};
 use nalgebra::Vector3;
@@ -77,7 +77,32 @@ impl Excess {
     }
 }
 
+impl Cable {
+    /// Notes, if the cable is watched, whether it is in an obstacle of its own.
+    pub(crate) fn note_inside(&mut self) {
+        let Some(mut watch) = self.watch.take() else { return };
+        watch.contacts.note_inside(self);
+        self.watch = Some(watch);
+    }
+}
+
 impl Contacts {
+    /// Reads whether the cable is in an obstacle, as obstacles come.
+    pub fn note_inside(&mut self, cable: &Cable) {
+        // what the colliders of a set are to its cables it knows by itself
+        let Some(found) = cable.overlap().filter(|_| cable.contact_key() == 0) else { return };
+        let is_inside = found.depth > INSIDE.max(cable.contact_radius());
+        let is_deeper = self.inside.is_none_or(|(_, [_, depth])| depth < found.depth);
+        if is_inside && is_deeper {
+            self.inside = Some((found.obstacle, [found.arc_length, found.depth]));
+        }
+    }
+
+    pub fn starts_inside(&self, cable: &Cable) -> Option<Warning> {
+        let (obstacle, [arc_length_m, depth_m]) = self.inside?;
+        Some(Warning::StartsInside { cable: cable.name().to_string(), obstacle, arc_length_m, depth_m })
+    }
+
     /// Reads the cable at a host time.
     pub fn note(&mut self, cable: &Cable) {
         if cable.effects().contact.is_none() {

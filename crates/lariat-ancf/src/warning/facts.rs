@@ -15,6 +15,10 @@ impl Warning {
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
             | Warning::ThickElements { .. }
+            | Warning::StartsInside { .. }
+            | Warning::ThickDrag { .. }
+            | Warning::FastFlow { .. }
+            | Warning::SoftCurve { .. }
             | Warning::MomentAlong { .. }
             | Warning::StiffTorsion { .. }
             | Warning::Stubby { .. }
@@ -26,6 +30,8 @@ impl Warning {
             | Warning::EnergyMade { .. }
             | Warning::FastReel { .. }
             | Warning::UnseenLoad { .. }
+            | Warning::BreaksAgain { .. }
+            | Warning::BeyondCurve { .. }
             | Warning::RoundedEnds { .. }
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
@@ -64,6 +70,12 @@ impl Warning {
             | Warning::MuchSlack { cable, .. }
             | Warning::SlowStretch { cable, .. }
             | Warning::ThickElements { cable, .. }
+            | Warning::ThickDrag { cable, .. }
+            | Warning::FastFlow { cable, .. }
+            | Warning::SoftCurve { cable, .. }
+            | Warning::BreaksAgain { cable, .. }
+            | Warning::StartsInside { cable, .. }
+            | Warning::BeyondCurve { cable, .. }
             | Warning::EnergyMade { cable, .. }
             | Warning::EnergyLost { cable, .. }
             | Warning::FastReel { cable, .. }
@@ -107,10 +119,13 @@ impl Judged for Warning {
             | Warning::Thick { .. }
             | Warning::LightMaterial { .. }
             | Warning::FastWaves { .. }
+            | Warning::ThickDrag { .. }
+            | Warning::SoftCurve { .. }
             | Warning::SoftMaterial { .. } => Sign::Sizes,
-            Warning::LargeStrain { .. } | Warning::GreenStrain { .. } => Sign::Strain,
+            Warning::LargeStrain { .. } | Warning::GreenStrain { .. } | Warning::BeyondCurve { .. } => Sign::Strain,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
+            Warning::StartsInside { .. } => Sign::Inside,
             Warning::PassedThrough { .. } => Sign::Crossing,
             Warning::LongSteps { .. } | Warning::NotResolved { .. } | Warning::CutShort { .. } => Sign::Steps,
             Warning::CoarseMesh { .. }
@@ -135,6 +150,8 @@ impl Judged for Warning {
             | Warning::FastReel { .. }
             | Warning::SlowReel { .. }
             | Warning::UnseenLoad { .. }
+            | Warning::BreaksAgain { .. }
+            | Warning::FastFlow { .. }
             | Warning::FrictionLags { .. }
             | Warning::Facets { .. }
             | Warning::RoundedEnds { .. } => return None,
@@ -150,6 +167,7 @@ impl Judged for Warning {
             Warning::LongSteps { time_s, .. }
             | Warning::LargeStrain { time_s, .. }
             | Warning::GreenStrain { time_s, .. }
+            | Warning::BeyondCurve { time_s, .. }
             | Warning::EnergyLost { time_s, .. }
             | Warning::FastReel { time_s, .. }
             | Warning::UnseenLoad { time_s, .. }
@@ -179,6 +197,11 @@ impl Judged for Warning {
             Warning::MomentAlong { part_nm, .. } => *part_nm,
             Warning::SlowReel { asked_m, given_m, .. } => (asked_m - given_m).abs(),
             Warning::UnseenLoad { reached, .. } => *reached,
+            Warning::StartsInside { depth_m, .. } => *depth_m,
+            Warning::BeyondCurve { tension_n, force_n, .. } => tension_n / force_n,
+            Warning::BreaksAgain { breaks, .. } => f64::from(*breaks),
+            Warning::FastFlow { speed_m_s, .. } => *speed_m_s,
+            Warning::SoftCurve { strain, .. } => *strain,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Facets { slid_m, .. } => *slid_m,
             Warning::Sinks { share, .. } => *share,
@@ -196,7 +219,7 @@ impl Judged for Warning {
                 *wave_speed_m_s
             }
             Warning::SoftMaterial { youngs_modulus_pa, .. } => -youngs_modulus_pa,
-            Warning::Thick { diameter_m, .. } => *diameter_m,
+            Warning::Thick { diameter_m, .. } | Warning::ThickDrag { diameter_m, .. } => *diameter_m,
             Warning::HighRestitution { restitution, .. } | Warning::DeadCables { restitution, .. } => *restitution,
             Warning::RunsOver { run_m, .. } => *run_m,
             Warning::UntouchedObstacles { count, .. } => *count as f64,

@@ -286,6 +286,49 @@ pub enum Warning {
         /// Length of the integration steps in s.
         step_s: f64,
     },
+    /// A tension beyond the last row of a measured curve.
+    #[error(
+        "cable {cable:?}: at {time_s:.3} s its tension was {tension_n:.3e} N, and its curve ends at {force_n:.3e} N and a strain of {strain}: the last slope went on from there; \
+         measure further, or let it break by `Strength`"
+    )]
+    BeyondCurve {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest tension in s.
+        time_s: f64,
+        /// Largest tension in N.
+        tension_n: f64,
+        /// Last strain of the curve.
+        strain: f64,
+        /// Last force of the curve in N.
+        force_n: f64,
+    },
+    /// It starts in an obstacle.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m it starts {depth_m:.2e} m deep in obstacle {obstacle}: `Contact` does not push out what starts inside; move one of them, and see \
+         that slack sags into nothing"
+    )]
+    StartsInside {
+        /// Name of the cable.
+        cable: String,
+        /// Key of the obstacle; in Python its index.
+        obstacle: u64,
+        /// Arc length in m.
+        arc_length_m: f64,
+        /// Depth of its surface in m.
+        depth_m: f64,
+    },
+    /// It is what several breaks left of a cable that nothing damps.
+    #[error(
+        "cable {cable:?}: {breaks} breaks, one after another, made it what it is, and nothing damps its stretch: it keeps the energy with which it snaps taut, which a real rope \
+         loses; how often it breaks is then not to be relied on; give it damping, as by `CableBuilder::damped_as`"
+    )]
+    BreaksAgain {
+        /// Name of the cable.
+        cable: String,
+        /// Number of the breaks.
+        breaks: u32,
+    },
     /// What holds a straight, stiff cable moves in jumps of its rounding.
     #[error(
         "cable {cable:?}: at {time_s:.3} s the rounding of what holds it, far from the origin in single precision, may pull at it by {noise_n:.1e} N, where its \
@@ -464,6 +507,46 @@ pub enum Warning {
         cable: String,
         /// Time of the axial strain in s.
         axial_s: f64,
+    },
+    /// Thicker in a fluid than any cable.
+    #[error(
+        "cable {cable:?}: its drag is that of a diameter of {diameter_m} m: it is in m; was {diameter_m} mm meant?"
+    )]
+    ThickDrag {
+        /// Name of the cable.
+        cable: String,
+        /// Diameter of drag in m.
+        diameter_m: f64,
+    },
+    /// A flow that is faster than any current or wind.
+    #[error(
+        "cable {cable:?}: the fluid of its drag, of {density_kg_m3} kg/m^3, flows with {speed_m_s} m/s, faster than any {}: it is in m/s; were knots or km/h meant?",
+        if *.is_liquid { "current" } else { "wind" }
+    )]
+    FastFlow {
+        /// Name of the cable.
+        cable: String,
+        /// Largest speed in m/s, by its tables.
+        speed_m_s: f64,
+        /// Density of the fluid in kg/m^3.
+        density_kg_m3: f64,
+        /// Whether it is a liquid, by its density.
+        is_liquid: bool,
+    },
+    /// A measured curve that is much softer than the section.
+    #[error(
+        "cable {cable:?}: its axial law reaches {force_n:.3e} N at a strain of {strain}, where EA = {axial_stiffness_n:.3e} N makes {:.3e} N: strains are shares of the length; \
+         were {strain} % meant?", .strain * .axial_stiffness_n
+    )]
+    SoftCurve {
+        /// Name of the cable.
+        cable: String,
+        /// Last strain of the curve.
+        strain: f64,
+        /// Force there in N.
+        force_n: f64,
+        /// EA of the section in N.
+        axial_stiffness_n: f64,
     },
     /// Elements that are thicker than long.
     #[error(

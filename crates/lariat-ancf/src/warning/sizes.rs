@@ -11,11 +11,17 @@
 //! 18000), and 32 times as fast a wave is where a density in g/cm^3 is read in kg/m^3; the lightest
 //! foams have 10 kg/m^3; a cable of more than three times the length of its points, and a damping
 //! time of more than a second, are probably shares in percent; the thickest cables are those of
-//! suspension bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches).
+//! suspension bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches). The
+//! fastest tidal streams run at 10 m/s (Saltstraumen), and the fastest gust that was measured had
+//! 113 m/s (Barrow Island, 1996). A curve of which all secants are below a thirtieth of EA, up to
+//! strains that only rubber bears, has its strains in percent: rubber's own secants fall to a fifth.
 
 use super::Warning;
-use crate::effect::Damping;
-use crate::scales::watch::{FASTEST, LIGHTEST, SLACK, SLENDERNESS, SLOWEST, SLOWEST_STRETCH, SOFTEST, THICKEST};
+use crate::effect::{AxialLaw, Damping, Drag};
+use crate::scales::watch::{
+    FASTEST, FASTEST_CURRENT, FASTEST_WIND, LEAST_LIQUID, LIGHTEST, MOST_STRETCH, SLACK, SLENDERNESS, SLOWEST,
+    SLOWEST_STRETCH, SOFTEST, SOFTEST_CURVE, THICKEST,
+};
 use crate::section::Section;
 
 /// Returns the warnings about the section and the unstretched length (m) of a cable.
@@ -46,6 +52,30 @@ pub fn slack(cable: &str, length_m: f64, drawn_m: f64) -> Option<Warning> {
 pub fn damping(cable: &str, damping: &Damping) -> Option<Warning> {
     let axial_s = damping.axial;
     (axial_s > SLOWEST_STRETCH).then(|| Warning::SlowStretch { cable: cable.to_string(), axial_s })
+}
+
+/// Returns the warnings about drag on a diameter in mm, and of a flow in knots or km/h.
+pub fn drag(cable: &str, drag: &Drag) -> impl Iterator<Item = Warning> {
+    let name = || cable.to_string();
+    let diameter = drag.diameter.filter(|diameter| *diameter > THICKEST);
+    let thick = diameter.map(|diameter_m| Warning::ThickDrag { cable: name(), diameter_m });
+    let (density_kg_m3, speed_m_s) = (drag.fluid_density, drag.flow.largest_speed());
+    let is_liquid = density_kg_m3 > LEAST_LIQUID;
+    let fast = speed_m_s > if is_liquid { FASTEST_CURRENT } else { FASTEST_WIND };
+    let flow = fast.then(|| Warning::FastFlow { cable: name(), speed_m_s, density_kg_m3, is_liquid });
+    thick.into_iter().chain(flow)
+}
+
+/// Returns the warning about a curve whose strains are in percent, of a cable of an EA in N.
+pub fn curve(cable: &str, law: &AxialLaw, axial_stiffness_n: f64) -> Option<Warning> {
+    let AxialLaw::Curve(rows) = law else { return None };
+    let stiffest = |[strain, force]: &[f64; 2]| if *strain > 0.0 { force / strain } else { 0.0 };
+    let &[strain, force_n] = rows.last()?;
+    let soft = rows.iter().map(stiffest).fold(0.0, f64::max) < SOFTEST_CURVE * axial_stiffness_n;
+    (strain > MOST_STRETCH && soft).then(|| {
+        let cable = cable.to_string();
+        Warning::SoftCurve { cable, strain, force_n, axial_stiffness_n }
+    })
 }
 
 /// Returns the warning about elements (m) that are thicker than long, of a cable of a length in m;

@@ -14,8 +14,11 @@ use super::torsion::stiff_torsion;
 use super::{Level, Warning, fold, less_elongation, sizes};
 use crate::at::At;
 use crate::cable::Cable;
+use crate::effect::AxialLaw;
 use crate::integrate::{Fidelity, OneStep};
-use crate::scales::watch::{DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN};
+use crate::scales::watch::{
+    BREAKS, DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN,
+};
 use crate::strength::Unseen;
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
@@ -24,7 +27,8 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 27] = [
+const LAWS: [(Law, bool); 29] = [
+    (|watch, cable, _| watch.contacts.starts_inside(cable), true),
     (Watch::strain, true),
     (Watch::mesh, true),
     (Watch::small_motion, false),
@@ -38,6 +42,7 @@ const LAWS: [(Law, bool); 27] = [
     (|watch, cable, _| watch.contacts.coarse(cable), true),
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
+    (|_, cable, _| breaks_again(cable), true),
     (|_, cable, _| unresolved(cable), true),
     (|_, cable, _| cut_short(cable), true),
     (Watch::twist, true),
@@ -140,9 +145,13 @@ impl Watch {
 
     fn strain(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let [share, tension_n, axial_stiffness_n, time_s] = self.tension;
-        // a law of one's own is meant as it is
-        if cable.effects().axial_law.is_some() {
-            return None;
+        // a law of one's own is meant as it is, as far as it was measured
+        if let Some(law) = &cable.effects().axial_law {
+            let AxialLaw::Curve(rows) = law else { return None };
+            let &[strain, force_n] = rows.last()?;
+            let cable = cable.name().to_string();
+            let beyond = tension_n > force_n;
+            return beyond.then_some(Warning::BeyondCurve { cable, time_s, tension_n, strain, force_n });
         }
         let cable = || cable.name().to_string();
         (share > STRAIN).then(|| Warning::LargeStrain { cable: cable(), time_s, tension_n, axial_stiffness_n })
@@ -249,6 +258,13 @@ fn unseen_load(cable: &Cable) -> Option<Warning> {
     Some(Warning::UnseenLoad { cable: cable.name().to_string(), time_s, share, reached, step_s })
 }
 
+/// Whether it is a part of a part of a part, and nothing damps it.
+fn breaks_again(cable: &Cable) -> Option<Warning> {
+    let breaks = cable.snapshot.load.breaks();
+    let is_damped = cable.effects().damping.is_some_and(|damping| damping.axial > 0.0);
+    (breaks >= BREAKS && !is_damped).then(|| Warning::BreaksAgain { cable: cable.name().to_string(), breaks })
+}
+
 impl Watch {
     fn energy(&self, own: &Cable, _: Option<f64>) -> Option<Warning> {
         let cable = || own.name().to_string();
@@ -277,6 +293,7 @@ impl Cable {
         let noted = noted.unwrap_or_else(|| {
             let mut watch = Watch::from_guess();
             watch.note(self);
+            watch.contacts.note_inside(self);
             watch.warnings(self, None)
         });
         let mut warnings: Vec<Warning> = self.size_warnings().chain(noted).collect();
@@ -325,7 +342,10 @@ impl Cable {
         let thickness = |element: &crate::Element| element.section.diameter.unwrap_or(0.0) / element.length;
         let thickest = elements().max_by(|a, b| thickness(a).total_cmp(&thickness(b)));
         let thick = thickest.and_then(|e| sizes::elements(name, &e.section, length, e.length));
-        shapes.chain(slack).chain(damping).chain(thick)
+        let stiffness = elements().map(|e| e.section.axial_stiffness).fold(0.0, f64::max);
+        let drag = self.effects().drag.iter().flat_map(|drag| sizes::drag(name, drag));
+        let curve = self.effects().axial_law.as_ref().and_then(|law| sizes::curve(name, law, stiffness));
+        shapes.chain(slack).chain(damping).chain(thick).chain(drag).chain(curve)
     }
 
     /// Lets the cable read itself after each of its host steps, or no longer:

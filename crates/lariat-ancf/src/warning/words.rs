@@ -25,7 +25,7 @@ pub enum Interface {
 
 /// By the name in Rust, without arguments, those of scenes and of Python: `{0}` is the first
 /// argument.
-const NAMES: [(&str, [&str; 2]); 13] = [
+const NAMES: [(&str, [&str; 2]); 14] = [
     ("elements", ["elements = {0}", "elements={0}"]),
     (
         "elements.finest",
@@ -40,7 +40,8 @@ const NAMES: [(&str, [&str; 2]); 13] = [
     ("AxialLaw::Hooke", ["axial_law = \"hooke\"", "AxialLaw(\"hooke\")"]),
     ("AxialLaw::Green", ["axial_law = \"green\"", "AxialLaw(\"green\")"]),
     ("CableBuilder::damped_as", ["damping = { rope = \"wire-rope\" }", "Cable(damped_as=...)"]),
-    ("CableSet::add_kink", ["kinks", "kinks of a scene"]),
+    ("Strength", ["break", "set_strength"]),
+    ("CableSet::add_kink", ["kinks", "World.add_kink"]),
     ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)"]),
 ];
 

@@ -168,13 +168,15 @@ fn effects(effects: &Bound<'_, PyAny>) -> PyResult<ancf::Effects> {
 #[pymethods]
 impl Cable {
     #[new]
-    #[pyo3(signature = (points, section, *, length=None, elements=None, finest=None, finest_at=None, name="cable", rule=None, allow_rank_deficient=false,
+    #[pyo3(signature = (points, section, *, length=None, pretension=None, sag=None, elements=None, finest=None, finest_at=None, name="cable", rule=None, allow_rank_deficient=false,
         fidelity=None, integrator=None, gravity=None, velocity=None, angular_velocity=None, fix=None, clamp=None,
         clamp_along=None, nodes_at=None, effects=None, damped_as=None))]
     fn py_new(
         points: Array,
         section: &Bound<'_, PyAny>,
         length: Option<f64>,
+        pretension: Option<f64>,
+        sag: Option<f64>,
         elements: Option<usize>,
         finest: Option<f64>,
         finest_at: Option<Places>,
@@ -200,9 +202,13 @@ impl Cable {
         for (from, section) in sections(section)? {
             builder = builder.section_from(from, section);
         }
-        if let Some(length) = length {
-            builder = builder.length(length);
-        }
+        builder = match (length, pretension, sag) {
+            (None, None, None) => builder,
+            (Some(length), None, None) => builder.length(length),
+            (None, Some(tension), None) => builder.pretension(tension),
+            (None, None, Some(sag)) => builder.sag(sag),
+            _ => return Err(PyTypeError::new_err("give one of length, pretension and sag")),
+        };
         if let Some(elements) = elements {
             builder = builder.elements(elements);
         }

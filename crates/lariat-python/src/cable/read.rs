@@ -6,6 +6,7 @@ use crate::integrator::Integrator;
 use crate::section::Section;
 use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::warning::Interface;
+use lariat_ancf::warning::fold::explained;
 use lariat_ancf::{At, Sample, TorsionReading, Vector3};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -168,7 +169,12 @@ impl Cable {
 
     /// Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        self.read(py, |cable| Ok(cable.warnings().iter().map(|warning| Interface::Python.text(warning)).collect()))
+        self.read(py, |cable| {
+            let warnings = cable.warnings();
+            let causes = explained(&warnings, |_| Some(()), |_| true);
+            let told = warnings.iter().zip(causes).filter(|(_, cause)| cause.is_none());
+            Ok(told.map(|(warning, _)| Interface::Python.text(warning)).collect())
+        })
     }
 
     /// Returns the arc length in m of the largest tension, and that tension in N.

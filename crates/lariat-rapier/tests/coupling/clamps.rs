@@ -2,7 +2,7 @@
 
 use super::common::{add_cube, cable, gap, run, soft, weightless};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Cable, Integrator, Method, Section, Vector3};
+use lariat_rapier::lariat_ancf::{At, Cable, Damping, Integrator, Method, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -114,4 +114,32 @@ fn a_crate_clamped_in_line_with_its_rope_feels_no_moment() {
     assert_eq!(a.kind(), AttachmentKind::Clamp);
     assert!(a.moment().norm() < 6e-6, "{:?}", a.moment());
     assert!(vector(world.bodies[load].rotation().to_scaled_axis()).norm() < 1e-6);
+}
+
+/// What a cable is read to carry at a body is what its attachment carries: the tension along its end, and the moment of a clamp; hanging in
+/// equilibrium askew, on every mesh. (In motion that of the attachment is the mean over the host step.)
+///
+/// *Source.* Newton's third law.
+#[test]
+fn a_cable_is_read_at_a_body_as_its_attachment() {
+    for (kind, elements) in
+        [AttachmentKind::Ball, AttachmentKind::Clamp].into_iter().flat_map(|k| [4, 15].map(|n| (k, n)))
+    {
+        let mut world = PhysicsWorld::new();
+        let load = add_cube(&mut world, 5.0, 0.1, [1.5, -0.1, 0.0]);
+        let mut set = CableSet::new();
+        let stiff = Section::from_stiffness(1e5, 2.0, 0.3).unwrap();
+        let rope = cable([0.0; 3], [1.5, 0.0, 0.0], stiff).elements(elements).length(1.7).clamp(At::Start);
+        let rope = rope.damping(Damping { axial: 1e-3, bending: 0.02 }).build().unwrap();
+        let rope = set.insert(rope);
+        let held = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), kind).unwrap();
+        set.equilibrium(&mut world).unwrap();
+        set.step(&mut world).unwrap();
+        let (end, held) = (set.get(rope).unwrap().sample(1.7).unwrap(), set.attachment(held).unwrap());
+        let (tension, moment) = (held.force().dot(&end.slope.normalize()).abs(), held.moment().norm());
+        println!("{kind:?} {elements}: {} {tension} N, {} {moment} N m", end.tension, end.moment.norm());
+        assert!((end.tension - tension).abs() < 1e-3 * held.force().norm(), "{} {tension}", end.tension);
+        let scale = moment.max(0.1 * held.force().norm());
+        assert!((end.moment.norm() - moment).abs() < 1e-3 * scale, "{} {moment}", end.moment.norm());
+    }
 }

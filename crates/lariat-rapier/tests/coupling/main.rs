@@ -24,6 +24,7 @@ mod joints;
 mod lamps;
 mod lever;
 mod light_links;
+mod mistakes;
 mod moving_ends;
 mod payload;
 mod prescribed_motion;

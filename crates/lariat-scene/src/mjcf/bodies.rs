@@ -331,11 +331,7 @@ impl Importer {
     }
 
     /// Returns what a body without a mass of its own has beside a composite that is clamped to it.
-    fn of_segment(
-        &mut self,
-        element: &Element,
-        inside: &[(Isometry3<f64>, &Element)],
-    ) -> Result<Inertia, Error> {
+    fn of_segment(&mut self, element: &Element, inside: &[(Isometry3<f64>, &Element)]) -> Result<Inertia, Error> {
         for (on, composite) in inside.iter().filter(|(_, child)| child.name == "composite") {
             let Some([mass, length]) = first_segment(composite)? else { continue };
             let centre = (on * self.local(composite, "offset")?).translation.vector;

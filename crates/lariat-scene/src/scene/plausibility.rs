@@ -28,6 +28,8 @@ const SHEATH: f64 = 10.0;
 const ANCHOR: f64 = 3.0;
 /// Largest size of a body over the length of a wave that it does not disturb (Faltinsen 1990, ch. 3).
 const IN_WAVES: f64 = 0.2;
+/// Density in kg/m^3 below which no water is; fuels have 700, liquid gas 430.
+const LIGHT_WATER: f64 = 400.0;
 /// Largest share of a cable with added mass that is in air.
 const IN_AIR: f64 = 0.1;
 /// Largest rounding of the position of a dynamic body in m: at 1/60 s velocities are rounded to 6 mm/s then.
@@ -44,6 +46,7 @@ impl Scene {
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
         warnings.extend(self.large_in_waves());
+        warnings.extend(self.light_water());
         if purpose != Purpose::Static {
             warnings.extend(self.falling());
             warnings.extend(self.unfinished_ramps());
@@ -124,6 +127,12 @@ impl Scene {
             let large = force_n > LOAD * axial_stiffness_n;
             large.then(|| Warning::LargeLoad { cable: name(), at_m, force_n, axial_stiffness_n })
         })
+    }
+
+    /// Returns the warning about water that is lighter than any liquid.
+    fn light_water(&self) -> Option<Warning> {
+        let density_kg_m3 = self.water.as_ref().map(|water| water.density)?;
+        (density_kg_m3 < LIGHT_WATER).then_some(Warning::LightWater { density_kg_m3 })
     }
 
     /// Returns a warning for each body in water that is not small beside the wave.
@@ -280,7 +289,11 @@ fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
     let of_section = move |(_, section): &(f64, Section)| -> Vec<_> {
         sizes::warnings(name, section, length).chain(sizes::elements(name, section, length, element)).collect()
     };
-    cable.sections.iter().flat_map(of_section).chain(damping).chain(sizes::slack(name, length, drawn))
+    let stiffness = cable.sections.iter().map(|(_, section)| section.axial_stiffness).fold(0.0, f64::max);
+    let drag = cable.effects.drag.iter().flat_map(move |drag| sizes::drag(name, drag));
+    let curve = cable.effects.axial_law.as_ref().and_then(|law| sizes::curve(name, law, stiffness));
+    let shapes = cable.sections.iter().flat_map(of_section).chain(damping).chain(sizes::slack(name, length, drawn));
+    shapes.chain(drag).chain(curve)
 }
 
 /// Returns the warning about a radius of contact in another unit.

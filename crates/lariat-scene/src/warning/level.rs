@@ -21,6 +21,7 @@ impl Warning {
             | Warning::FarAnchor { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::LightWater { .. }
             | Warning::AddedMassInAir { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
@@ -66,6 +67,7 @@ impl Warning {
             | Warning::LeftAsDrawn { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::LightWater { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
             | Warning::ManyTurns { .. } => None,
@@ -103,6 +105,7 @@ impl Judged for Warning {
             | Warning::LeftAsDrawn { .. }
             | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
+            | Warning::LightWater { .. }
             | Warning::AddedMassInAir { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
@@ -145,6 +148,7 @@ impl Judged for Warning {
             Warning::FarAnchor { distance_m, radius_m, .. } => distance_m / radius_m,
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,
+            Warning::LightWater { density_kg_m3 } => -density_kg_m3,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
             Warning::StiffKink { error_m, .. } => *error_m,
             Warning::AddedMassInAir { share, .. } => *share,

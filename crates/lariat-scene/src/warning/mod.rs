@@ -281,6 +281,14 @@ pub enum Warning {
         /// Length of the wave in m.
         wave_length_m: f64,
     },
+    /// Water that is lighter than any liquid.
+    #[error(
+        "water: its density is {density_kg_m3} kg/m^3, less than that of any liquid: it is in kg/m^3; was {density_kg_m3} g/cm^3 or t/m^3 meant?"
+    )]
+    LightWater {
+        /// Density in kg/m^3.
+        density_kg_m3: f64,
+    },
     /// A dynamic body that statics leave where it is drawn.
     #[error("body {body:?}: no cable is attached to it: it is left where it is drawn, and may not be at rest there")]
     LeftAsDrawn {

@@ -210,3 +210,33 @@ fn far_bodies_fast_spins_and_added_mass_in_air_are_told() {
     assert_eq!(kinds(&text(0.0, 0.0, 0.5, 1.0)), ["air"]);
     assert_eq!(kinds(&text(0.0, 0.0, 0.5, 0.0)), none);
 }
+
+/// A diameter of drag in mm, a current in knots, strains of a curve in percent and water in g/cm^3 are told, once each; what is right is not.
+#[test]
+fn fluids_and_curves_in_other_measures_are_told() {
+    let text = |diameter: f64, current: f64, density: f64, scale: f64| {
+        let rows = [[0.0, 0.0], [0.05, 3e3], [0.1, 9e3], [0.2, 3e4]].map(|[strain, force]| [scale * strain, force]);
+        format!(
+            "duration = 0.01\n[water]\ndensity = {density:?}\n[[cable]]\nname = \"line\"\npoints = [[0.0, 0.0, -9.0], [8.0, 0.0, -9.0]]\n\
+             axial_stiffness = 3e5\nbending_stiffness = 0.1\nmass_per_length = 0.4\naxial_law = {{ curve = {rows:?} }}\n\
+             drag = {{ fluid_density = 1025.0, diameter = {diameter:?}, normal = 1.2, flow = {{ velocity = [0.0, {current:?}, 0.0] }} }}\n\
+             [[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"world\"\n"
+        )
+    };
+    let kinds = |diameter: f64, current: f64, density: f64, scale: f64| -> Vec<&str> {
+        let kind = |w: &Warning| match w {
+            Warning::Cable(CableWarning::ThickDrag { .. }) => "diameter",
+            Warning::Cable(CableWarning::FastFlow { is_liquid: true, .. }) => "current",
+            Warning::Cable(CableWarning::SoftCurve { .. }) => "curve",
+            Warning::LightWater { .. } => "water",
+            _ => "",
+        };
+        let warnings = warned(&text(diameter, current, density, scale), Purpose::Run);
+        warnings.iter().map(kind).filter(|kind| !kind.is_empty()).collect()
+    };
+    assert!(kinds(0.012, 2.0, 1025.0, 1.0).is_empty() && kinds(1.4, 11.0, 700.0, 2.0).is_empty());
+    assert_eq!(kinds(12.0, 2.0, 1025.0, 1.0), ["diameter"]);
+    assert_eq!(kinds(0.012, 30.0, 1025.0, 1.0), ["current"]);
+    assert_eq!(kinds(0.012, 2.0, 1.025, 1.0), ["water"]);
+    assert_eq!(kinds(0.012, 2.0, 1025.0, 100.0), ["curve"]);
+}
