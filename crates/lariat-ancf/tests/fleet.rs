@@ -3,7 +3,7 @@
 mod common;
 
 use common::pendulum;
-use lariat_ancf::coupling::Coupling;
+use lariat_ancf::coupling::{Coupling, cost_of_step, jobs_of_task};
 use lariat_ancf::{Cable, Error, Fidelity, Vector3, step_all};
 
 /// Cables of different sizes and initial velocities.
@@ -66,4 +66,22 @@ fn cables_that_cannot_step_concern_themselves_alone() {
         assert_eq!(cable.time() > 0.0, ![7, 23].contains(&i));
     }
     assert_eq!([7, 23].map(|i: usize| cables[i].snapshot().clone()), before);
+}
+
+/// Threads are used where they pay: a task has a thousand evaluations of an element or more. What has fewer is one task; cables that have
+/// taken many steps in a host step are shared out earlier than calm ones.
+#[test]
+fn small_work_is_one_task() {
+    for (jobs, cost, of_task) in
+        [(10, 300.0, 10), (10, 1999.0, 10), (10, 2000.0, 5), (10, 1e5, 1), (3, 2500.0, 2), (1, 1e6, 1)]
+    {
+        assert_eq!(jobs_of_task(jobs, cost), of_task, "{jobs} {cost}");
+    }
+    let mut cables = [fleet()[3].clone(), fleet()[5].clone()];
+    let at_first = cables.iter().map(|cable| 2.0 * cable.elements().len() as f64);
+    assert!(cables.iter().map(cost_of_step).eq(at_first));
+    step_all(&mut cables, 1.0 / 60.0).unwrap();
+    let each = cables.iter().map(|cable| cost_of_step(cable) / cable.elements().len() as f64);
+    let [game, engineering] = each.collect::<Vec<_>>()[..] else { unreachable!() };
+    assert!(game >= 2.0 && engineering > 4.0 * game, "{game} {engineering}");
 }

@@ -89,6 +89,8 @@ fn a_kind_gives_the_same_damping_everywhere() {
     for kind in RopeKind::ALL {
         assert_eq!(kind.to_string().parse::<RopeKind>().unwrap(), kind);
     }
-    let Err(Error::UnknownRopeKind { suggestion, .. }) = "wire_rope".parse::<RopeKind>() else { panic!("no error") };
+    // as `RopeMaterial` is written
+    assert_eq!("wire_rope".parse::<RopeKind>().unwrap(), RopeKind::WireRope);
+    let Err(Error::UnknownRopeKind { suggestion, .. }) = "wire_rop".parse::<RopeKind>() else { panic!("no error") };
     assert_eq!(suggestion.as_deref(), Some("wire-rope"));
 }

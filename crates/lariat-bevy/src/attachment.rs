@@ -9,6 +9,7 @@ use bevy_ecs::world::DeferredWorld;
 use core::ops::Deref;
 use lariat_ancf::{At, Point, Vector3};
 use lariat_rapier::{AttachmentHandle, AttachmentKind, Gap};
+use serde::{Deserialize, Serialize};
 
 /// An attachment of a point of a cable. Spawn it with its relationships:
 ///
@@ -27,7 +28,7 @@ use lariat_rapier::{AttachmentHandle, AttachmentKind, Gap};
 ///
 /// A ball transmits no moment. A clamp holds the direction of the tangent; the cable has no
 /// torsion.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[require(AttachmentReading)]
 #[component(on_discard = discarded)]
 pub struct Attachment {
@@ -139,7 +140,7 @@ impl ToWorldBundle {
 }
 
 /// The cable of an attachment.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[relationship(relationship_target = CableAttachments)]
 pub struct OnCable(pub Entity);
 
@@ -150,7 +151,7 @@ pub struct CableAttachments(Vec<Entity>);
 
 /// The body of an attachment. Insert another one to attach to another body; if the cable is not
 /// there, [`Attachment::gap`] says whether it is drawn there or the attachment fails.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[relationship(relationship_target = BodyAttachments)]
 pub struct ToBody(pub Entity);
 
@@ -160,11 +161,11 @@ pub struct ToBody(pub Entity);
 pub struct BodyAttachments(Vec<Entity>);
 
 /// The force in N above which an attachment breaks, compared after each host step.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BreakForce(pub f64);
 
 /// Force, moment, gap and work of an attachment after the last host step.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AttachmentReading(pub lariat_rapier::AttachmentReading);
 
 impl Deref for AttachmentReading {
@@ -175,11 +176,11 @@ impl Deref for AttachmentReading {
 }
 
 /// The handle of an attachment in the set, while it exists there.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Attached(pub AttachmentHandle);
 
 /// Marks an attachment that could not be made, until it changes.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct NotAttachable;
 
 /// Notes that the attachment of a component that is removed or replaced is to be removed from the

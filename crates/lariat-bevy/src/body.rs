@@ -3,6 +3,7 @@
 use crate::cables::Cables;
 use crate::pending::Pending;
 use crate::physics::Physics;
+use crate::rigid::Rigid;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
@@ -14,21 +15,22 @@ use lariat_rapier::rapier::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHand
 use lariat_rapier::rapier::geometry::ColliderBuilder;
 use lariat_rapier::rapier::math::Pose;
 use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
 
 /// A rigid body with its colliders. It is added to Rapier's world in the next host step, and
 /// removed with this component or its entity.
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Serialize, Deserialize)]
 #[require(BodyPose)]
 #[component(on_discard = discarded)]
 pub struct Body {
-    pub(crate) rigid: RigidBodyBuilder,
+    pub(crate) rigid: Rigid,
     pub(crate) colliders: Vec<ColliderBuilder>,
 }
 
 impl Body {
     /// A body of Rapier's builder.
     pub fn new(rigid: RigidBodyBuilder) -> Self {
-        Body { rigid, colliders: Vec::new() }
+        Body { rigid: Rigid::Described(rigid), colliders: Vec::new() }
     }
 
     /// A body that forces and impulses move.
@@ -48,13 +50,13 @@ impl Body {
 
     /// Sets the position in m.
     pub fn at(mut self, position: impl Into<Point>) -> Self {
-        self.rigid = self.rigid.translation(to_vector(&position.into().0));
+        self.rigid = self.rigid.at(to_vector(&position.into().0));
         self
     }
 
     /// Sets the initial velocity in m/s.
     pub fn velocity(mut self, velocity: impl Into<Point>) -> Self {
-        self.rigid = self.rigid.linvel(to_vector(&velocity.into().0));
+        self.rigid = self.rigid.velocity(to_vector(&velocity.into().0));
         self
     }
 
@@ -67,7 +69,7 @@ impl Body {
 
 /// The handle of an entity's body in Rapier's world. Inserted with a [`Body`]; for bodies of
 /// another plugin insert it yourself ([`BodyHandle::external`]).
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BodyHandle {
     pub(crate) handle: RigidBodyHandle,
 }
@@ -85,7 +87,7 @@ impl BodyHandle {
 }
 
 /// Position, rotation and velocity of a body after the last host step.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyPose {
     /// Position of its origin in m.
     pub position: Vector3<f64>,
@@ -116,7 +118,7 @@ impl BodyPose {
 }
 
 /// Position and rotation of a kinematic body after the next host step.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct KinematicTarget {
     /// Position of its origin in m.
     pub position: Vector3<f64>,

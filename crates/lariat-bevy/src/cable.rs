@@ -2,7 +2,7 @@
 
 use crate::cables::Cables;
 use crate::components::CableComponents;
-use crate::description::Description;
+use crate::description::{Description, Span};
 use crate::event::CableFailed;
 use crate::pending::Pending;
 use bevy_ecs::component::Component;
@@ -11,6 +11,7 @@ use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::{Fidelity, Point, Section};
+use serde::{Deserialize, Serialize};
 
 /// The description of a cable. Spawn it with its rule and effects as components beside it;
 /// [`Cables`] then holds the cable:
@@ -47,7 +48,7 @@ use lariat_ancf::{Fidelity, Point, Section};
 ///
 /// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`].
 /// Nothing touches it without a [`Contact`](crate::Contact): see the [crate page](crate#limits).
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[component(immutable, on_insert = built, on_discard = discarded)]
 pub struct Cable(pub(crate) Description);
 
@@ -70,7 +71,22 @@ impl Cable {
     /// Sets the unstretched length in m. Default: the length of the initial shape. A longer cable
     /// starts slack.
     pub fn length(mut self, length: f64) -> Self {
-        self.0.length = Some(length);
+        (self.0.length, self.0.span) = (Some(length), None);
+        self
+    }
+
+    /// Instead of [`length`](Self::length): the length with which it has this tension in N at its
+    /// middle when it hangs between the ends of its initial shape, before loads, wind and currents;
+    /// under [`gravity`](Self::gravity), if that is not 9.81 m/s^2 along -y.
+    pub fn pretension(mut self, tension: f64) -> Self {
+        (self.0.length, self.0.span) = (None, Some(Span::Tension(tension)));
+        self
+    }
+
+    /// Instead of [`length`](Self::length): the length with which it hangs by this distance in m
+    /// below the line between its ends, at most; under the same.
+    pub fn sag(mut self, sag: f64) -> Self {
+        (self.0.length, self.0.span) = (None, Some(Span::Sag(sag)));
         self
     }
 

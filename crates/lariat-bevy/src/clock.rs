@@ -5,9 +5,10 @@ use crate::physics::Physics;
 use crate::schedule::CableStep;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
+use serde::{Deserialize, Serialize};
 
 /// Time that has elapsed and is not yet stepped.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FixedClock {
     /// In s.
     overstep: f64,

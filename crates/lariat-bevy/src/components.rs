@@ -8,6 +8,7 @@ use crate::description::Description;
 use crate::drum::Drum;
 use crate::effects::*;
 use crate::reel::{Reel, ReelAtStart};
+use crate::saved::maybe;
 use crate::strength::{BreakStrain, BreakTension};
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
@@ -15,21 +16,30 @@ use bevy_ecs::query::{Changed, Or};
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, BendingRule, Effects, Error, Feed, PointLoad, Section};
+use serde::{Deserialize, Serialize};
 
 macro_rules! components {
     ($({ field: $field:ident, type: $type:ident, set: $set:ident, key: $key:literal, summary: $summary:literal })*) => {
         /// The components beside a [`Cable`](crate::Cable) that say what it does.
-        #[derive(Clone, Debug, Default, PartialEq)]
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub(crate) struct CableComponents {
+            #[serde(with = "maybe")]
             rule: Option<Rule>,
+            #[serde(with = "maybe")]
             bending: Option<Bending>,
+            #[serde(with = "maybe")]
             point_loads: Option<PointLoads>,
+            #[serde(with = "maybe")]
             reel: Option<Reel>,
+            #[serde(with = "maybe")]
             reel_at_start: Option<ReelAtStart>,
+            #[serde(with = "maybe")]
             drum: Option<Drum>,
+            #[serde(with = "maybe")]
             break_tension: Option<BreakTension>,
+            #[serde(with = "maybe")]
             break_strain: Option<BreakStrain>,
-            $($field: Option<$type>,)*
+            $(#[serde(with = "maybe")] $field: Option<$type>,)*
         }
 
         /// Query filter: one of the components was added or changed.
@@ -109,7 +119,7 @@ lariat_ancf::for_each_effect!(components);
 
 impl CableComponents {
     /// Renames entities.
-    pub fn rename(&mut self, name: &impl Fn(Entity) -> Entity) {
+    pub fn rename(&mut self, name: &(impl Fn(Entity) -> Entity + ?Sized)) {
         if let Some(drum) = &mut self.drum {
             drum.body = name(drum.body);
         }
@@ -137,7 +147,13 @@ impl CableComponents {
             Ok(section) if length > 0.0 => self.effects(section, length)?,
             _ => Effects::default(),
         };
-        description.build(name, self.rule(description), effects, self.loads())
+        let cable = description.build(name, self.rule(description), effects, self.loads())?;
+        if description.span.is_none() {
+            return Ok(cable);
+        }
+        // once more with the effects of its length, which shares are of
+        let found = Description { length: Some(cable.length()), span: None, ..description.clone() };
+        self.build(name, &found)
     }
 
     /// Returns a cable changed to what these components say of one of this unstretched length (m); `None` if it does that already.

@@ -1,17 +1,31 @@
 //! The description that a cable is built from.
 
+use crate::saved::reason;
 use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::{At, Effects, Error, Fidelity, Integrator, PointLoad, Rule, Section, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// What fixes the length of a cable that hangs between its drawn ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Span {
+    /// Tension at the middle in N.
+    Tension(f64),
+    /// Distance below the line between the ends in m.
+    Sag(f64),
+}
 
 /// The geometry, section and integrator of a cable; rule, effects and loads are components beside
 /// it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Description {
+    #[serde(with = "reason")]
     pub section: Result<Section, Error>,
     /// Points of the initial shape in m.
     pub points: Vec<Vector3<f64>>,
     /// Unstretched length in m; `None`: that of the initial shape.
     pub length: Option<f64>,
+    /// What fixes the length instead.
+    pub span: Option<Span>,
     pub elements: usize,
     /// Arc lengths in m of nodes.
     pub nodes_at: Vec<f64>,
@@ -30,6 +44,7 @@ impl Description {
             section,
             points: Vec::new(),
             length: None,
+            span: None,
             elements: 10,
             nodes_at: Vec::new(),
             hanging: false,
@@ -61,6 +76,11 @@ impl Description {
             .effects(effects)
             .velocity(self.velocity)
             .integrator(self.integrator);
+        builder = match self.span {
+            Some(Span::Tension(tension)) => builder.pretension(tension),
+            Some(Span::Sag(sag)) => builder.sag(sag),
+            None => builder,
+        };
         if let Some(length) = self.length {
             builder = builder.length(length);
         }

@@ -3,6 +3,7 @@
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use lariat_ancf::{At, Reel};
+use serde::{Deserialize, Serialize};
 
 /// Winds the end of a cable on a body: its rate is the spin of the body relative to what holds the end, and the body feels the pull. Torque on the
 /// body, or a motor on its joint, hoists. `cables.get(entity)?.reel(At::End)` reads it.
@@ -31,7 +32,7 @@ use lariat_ancf::{At, Reel};
 /// }
 /// assert!(world.resource::<Cables>().get(rope).unwrap().length() > 2.1); // its weight pulls it out
 /// ```
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drum {
     /// The body.
     pub body: Entity,

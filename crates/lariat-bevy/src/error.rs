@@ -54,6 +54,15 @@ pub enum Error {
         /// An attachment to such a body.
         attachment: Entity,
     },
+    /// Bytes that are no saved [`Snapshot`](crate::Snapshot), or are damaged.
+    #[error(transparent)]
+    Seal(#[from] lariat_ancf::seal::SealError),
+    /// Bytes under the seal of a [`Snapshot`](crate::Snapshot) that hold none.
+    #[error("not a saved snapshot: {0}")]
+    NotASnapshot(String),
+    /// A [`Snapshot`](crate::Snapshot) that cannot be saved.
+    #[error("this snapshot cannot be saved: {0}")]
+    NotWritten(String),
     /// The schedules and resources of [`install`](crate::install) are missing.
     #[error("this world has no cables: call lariat_bevy::install first")]
     NotInstalled,

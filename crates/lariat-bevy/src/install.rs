@@ -8,7 +8,9 @@ use crate::event;
 use crate::mesh;
 use crate::pending::Pending;
 use crate::physics::Physics;
-use crate::prepare::{self, attachments, bodies, drums, effects, junctions, passing, reels, removals, sheaves, water};
+use crate::prepare::{
+    self, attachments, bodies, drums, effects, junctions, kinks, passing, reels, removals, sheaves, water,
+};
 use crate::publish;
 use crate::reel::{Reel, ReelAtStart};
 use crate::schedule::{AfterEngine, BeforeEngine, CableStep, CableSystems, RapierStep};
@@ -90,6 +92,7 @@ fn add_prepare(schedule: &mut Schedule) {
             sheaves::update,
             attachments::update,
             passing::update,
+            kinks::update,
             drums::update,
             reels::update::<Reel>,
             reels::update::<ReelAtStart>,

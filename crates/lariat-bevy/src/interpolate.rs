@@ -12,10 +12,11 @@
 use bevy_ecs::component::Component;
 use lariat_ancf::element::shape::{combine, position};
 use lariat_ancf::{Cable, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// Keeps the previous nodal coordinates of a cable, so that it can be drawn between host steps.
 /// Without it nothing is kept.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Interpolate {
     before: Vec<f64>,
 }

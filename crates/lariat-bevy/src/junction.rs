@@ -7,6 +7,7 @@ use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::world::DeferredWorld;
 use lariat_ancf::At;
 use lariat_rapier::{Gap, JunctionHandle};
+use serde::{Deserialize, Serialize};
 
 /// Ties points of cables to each other: they share one position, like a massless shackle. The cables
 /// are untied when this component is removed or its entity is despawned.
@@ -26,7 +27,7 @@ use lariat_rapier::{Gap, JunctionHandle};
 /// be made, [`JunctionFailed`](crate::event::JunctionFailed) is sent; it is tried again when the
 /// component changes or a cable is spawned. Of a junction whose cable is removed the others stay
 /// tied; with one cable left it ends ([`JunctionEnded`](crate::event::JunctionEnded)).
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[component(on_discard = discarded)]
 pub struct Junction {
     /// The cables, and their points that are tied.
@@ -54,17 +55,17 @@ impl Junction {
     }
 
     /// Renames entities.
-    pub(crate) fn rename(&mut self, name: &impl Fn(Entity) -> Entity) {
+    pub(crate) fn rename(&mut self, name: &(impl Fn(Entity) -> Entity + ?Sized)) {
         self.points.iter_mut().for_each(|(cable, _)| *cable = name(*cable));
     }
 }
 
 /// The handle of a junction in the set, while it exists there.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Joined(pub JunctionHandle);
 
 /// Marks a junction that could not be made or ended, until it changes or a cable is spawned.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct NotJoinable;
 
 /// Notes that the junction of a component that is removed or replaced is to be removed from the set.

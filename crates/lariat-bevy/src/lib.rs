@@ -39,7 +39,7 @@
 //! | read or change its state | [`Cables`] |
 //! | attach it | [`Attachment`], [`OnCable`], [`ToBody`], [`AttachmentReading`] |
 //! | spawn the usual rope in one line | [`SpawnRope::spawn_rope`], [`Rope`] |
-//! | tie cables to each other | [`Junction`] |
+//! | tie cables to each other, let one kink | [`Junction`], [`KinkAlong`] |
 //! | pay it out, take it in | [`Reel`], [`ReelAtStart`] |
 //! | wind it on a body that turns, run it over a wheel into another | [`Drum`], [`Sheave`], [`SheaveAlong`] |
 //! | bound the work of a host step | [`Budget`] in [`Settings`], [`CableDegraded`](event::CableDegraded) |
@@ -53,6 +53,7 @@
 //! | draw | [`RopeMesh`], whose triangles are [`RopeVertices`]; [`curve()`], [`Interpolate`] |
 //! | measure the cost | [`Diagnostics`] |
 //! | roll back | [`Snapshot`] |
+//! | save to a file and load | [`Snapshot::to_bytes`], [`Snapshot::from_bytes`], or serde |
 //!
 //! Features: `bevy_app` (a plugin), `reflect` (components of effects register with bevy_reflect).
 //!
@@ -72,7 +73,7 @@
 //!   `lariat-bevy-rapier`) a host step is one Rapier step, so that taut cables on light bodies in
 //!   contact need a short one.
 //! - The cable of a disabled entity is stepped like any other.
-//! - Restoring a [`Snapshot`] spawns despawned entities again under new numbers.
+//! - Restoring a [`Snapshot`] spawns despawned entities again under new numbers, and all of them in another world.
 
 mod attachment;
 mod body;
@@ -90,6 +91,7 @@ pub mod event;
 mod install;
 mod interpolate;
 mod junction;
+mod kink;
 mod links;
 mod mesh;
 mod passing;
@@ -100,7 +102,9 @@ mod plugin;
 mod prepare;
 mod publish;
 mod reel;
+mod rigid;
 mod rope;
+mod saved;
 mod schedule;
 mod sheave;
 mod snapshot;
@@ -123,6 +127,7 @@ pub use error::Error;
 pub use install::install;
 pub use interpolate::{Interpolate, curve};
 pub use junction::Junction;
+pub use kink::KinkAlong;
 pub use lariat_ancf::{self, At, Fidelity, Point};
 pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, SheaveOptions, rapier};
 pub use mesh::{RopeMesh, RopeVertices};

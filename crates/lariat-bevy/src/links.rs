@@ -3,30 +3,38 @@
 use crate::attachment::Attachment;
 use crate::error::Error;
 use crate::junction::Junction;
+use crate::saved::pairs;
 use crate::sheave::Sheave;
 use bevy_ecs::entity::{Entity, EntityHashMap};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::{AttachmentHandle, CableHandle, JunctionHandle, SheaveHandle};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashMap};
 
 /// Which entity stands for which object of the set and of Rapier's world.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Links {
     /// In the order of handles, so that no result depends on the order of entities.
+    #[serde(with = "pairs")]
     pub cables: BTreeMap<CableHandle, CableLink>,
     /// Handle of each cable entity, or why its cable could not be built.
+    #[serde(with = "builds")]
     pub built: EntityHashMap<Result<CableHandle, lariat_ancf::Error>>,
+    #[serde(with = "pairs")]
     pub attachments: BTreeMap<AttachmentHandle, AttachmentLink>,
+    #[serde(with = "pairs")]
     pub junctions: BTreeMap<JunctionHandle, JunctionLink>,
     /// By entity.
+    #[serde(with = "pairs")]
     pub sheaves: BTreeMap<Entity, SheaveLink>,
+    #[serde(with = "bodies")]
     pub bodies: HashMap<RigidBodyHandle, Entity>,
     /// The fixed body to which cables are attached that are attached to the world.
     pub ground: Option<RigidBodyHandle>,
 }
 
 /// A cable of the set.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CableLink {
     pub entity: Entity,
     /// Unstretched length in m for which shares of effects are meant: that when it was built or broke, whatever reels do.
@@ -36,7 +44,7 @@ pub(crate) struct CableLink {
 }
 
 /// An attachment of the set.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AttachmentLink {
     pub entity: Entity,
     pub cable: Entity,
@@ -50,7 +58,7 @@ pub(crate) struct AttachmentLink {
 }
 
 /// A junction of the set.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct JunctionLink {
     pub entity: Entity,
     /// The component that it was made from.
@@ -58,7 +66,7 @@ pub(crate) struct JunctionLink {
 }
 
 /// A sheave of an entity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SheaveLink {
     /// The component that it was made from.
     pub made: Sheave,
@@ -90,7 +98,7 @@ impl Links {
     }
 
     /// Renames entities.
-    pub fn renamed(&self, name: &impl Fn(Entity) -> Entity) -> Links {
+    pub fn renamed(&self, name: &(impl Fn(Entity) -> Entity + ?Sized)) -> Links {
         let mut links = self.clone();
         links.built = self.built.iter().map(|(entity, built)| (name(*entity), built.clone())).collect();
         links.cables.values_mut().for_each(|link| link.entity = name(link.entity));
@@ -106,5 +114,44 @@ impl Links {
             link.body = link.body.map(name);
         }
         links
+    }
+}
+
+/// The handles of entities, and those without a cable: the reason is found again.
+mod builds {
+    use super::{CableHandle, Entity, EntityHashMap, pairs};
+    use serde::{Deserializer, Serializer};
+    use std::collections::BTreeMap;
+
+    type Built = EntityHashMap<Result<CableHandle, lariat_ancf::Error>>;
+
+    pub fn serialize<S: Serializer>(built: &Built, serializer: S) -> Result<S::Ok, S::Error> {
+        let handles = built.iter().map(|(entity, built)| (*entity, built.as_ref().ok().copied()));
+        pairs::serialize(&handles.collect(), serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Built, D::Error> {
+        let handles: BTreeMap<Entity, Option<CableHandle>> = pairs::deserialize(deserializer)?;
+        let unknown = || lariat_ancf::Error::NoSection { cable: "cable".to_string() };
+        Ok(handles.into_iter().map(|(entity, handle)| (entity, handle.ok_or_else(unknown))).collect())
+    }
+}
+
+/// The entities of bodies.
+mod bodies {
+    use super::{Entity, HashMap, RigidBodyHandle};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    type Bodies = HashMap<RigidBodyHandle, Entity>;
+
+    pub fn serialize<S: Serializer>(bodies: &Bodies, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut bodies: Vec<(&RigidBodyHandle, &Entity)> = bodies.iter().collect();
+        bodies.sort_by_key(|(handle, _)| handle.into_raw_parts());
+        bodies.serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Bodies, D::Error> {
+        let bodies: Vec<(RigidBodyHandle, Entity)> = Vec::deserialize(deserializer)?;
+        Ok(bodies.into_iter().collect())
     }
 }

@@ -23,10 +23,11 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::system::{Query, Res};
 use lariat_ancf::element::shape;
 use lariat_ancf::{Cable, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// Lets a cable have a surface: a tube, whose [`RopeVertices`] are brought up to date after each host
 /// step in which the cable moved.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[require(RopeVertices)]
 pub struct RopeMesh {
     radius: f64,

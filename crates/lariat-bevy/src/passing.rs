@@ -4,6 +4,7 @@ use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use lariat_ancf::{At, Point, Vector3};
 use lariat_rapier::SheaveOptions;
+use serde::{Deserialize, Serialize};
 
 /// Asks for a sheave at a point between the ends of one cable: an eye of a body or of the world, over which it runs.
 ///
@@ -30,7 +31,7 @@ use lariat_rapier::SheaveOptions;
 ///
 /// A cable that is drawn around a corner there needs a [node](crate::Cable::node_at) at it, and has no strain from the corner then. If the sheave
 /// cannot be made, [`SheaveFailed`](crate::event::SheaveFailed) is sent; it is tried again when this component, the cable or the body changes.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SheaveAlong {
     /// The cable, and the point that is at the sheave.
     pub cable: (Entity, At),
@@ -69,7 +70,7 @@ impl SheaveAlong {
     }
 
     /// Returns it with other names of entities.
-    pub(crate) fn renamed(self, name: &impl Fn(Entity) -> Entity) -> Self {
+    pub(crate) fn renamed(self, name: &(impl Fn(Entity) -> Entity + ?Sized)) -> Self {
         SheaveAlong { cable: (name(self.cable.0), self.cable.1), body: self.body.map(name), ..self }
     }
 }

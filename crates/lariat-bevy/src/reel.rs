@@ -2,6 +2,7 @@
 
 use bevy_ecs::component::Component;
 use lariat_ancf::At;
+use serde::{Deserialize, Serialize};
 
 /// A reel at the end of a cable: change its rates as you like. `cables.get(entity)?.reel(At::End)` reads it. One that the cable cannot carry
 /// is an error: [`CableFailed`](crate::event::CableFailed).
@@ -21,7 +22,7 @@ use lariat_ancf::At;
 /// }
 /// assert!(world.resource::<Cables>().get(rope).unwrap().length() < 3.7);
 /// ```
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reel(pub lariat_ancf::Reel);
 
 impl Reel {
@@ -38,7 +39,7 @@ impl Reel {
 }
 
 /// A reel at the start of a cable, as [`Reel`] is one at the end.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReelAtStart(pub lariat_ancf::Reel);
 
 impl ReelAtStart {

@@ -4,6 +4,7 @@ use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use lariat_ancf::At;
 use lariat_rapier::SheaveOptions;
+use serde::{Deserialize, Serialize};
 
 /// Lets a cable run into another over a wheel without extent: both ends are attached at one point, of a body or of the world.
 /// [`Cables::sheave`](crate::Cables::sheave) reads it. It ends when this component is removed or its entity is despawned.
@@ -24,9 +25,9 @@ use lariat_rapier::SheaveOptions;
 /// assert!(world.resource::<Cables>().sheave(sheave).unwrap().passed() > 0.05); // the longer side falls
 /// ```
 ///
-/// Both cables need the integrator `discrete-gradient`, the default, and one mass per length. If a sheave cannot be made, or ends with
+/// Both cables need the integrator `discrete-gradient`, the default, and one section. If a sheave cannot be made, or ends with
 /// one of its cables or attachments, [`SheaveFailed`](crate::event::SheaveFailed) is sent; it is tried again when the component changes or a cable is spawned.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sheave {
     /// The cable that runs into the other at positive rates, and its end.
     pub from: (Entity, At),
@@ -55,7 +56,7 @@ impl Sheave {
     }
 
     /// Renames entities.
-    pub(crate) fn rename(&mut self, name: &impl Fn(Entity) -> Entity) {
+    pub(crate) fn rename(&mut self, name: &(impl Fn(Entity) -> Entity + ?Sized)) {
         (self.from.0, self.to.0) = (name(self.from.0), name(self.to.0));
     }
 }

@@ -4,6 +4,7 @@ use bevy_ecs::component::Component;
 use bevy_ecs::resource::Resource;
 use lariat_ancf::Water;
 use lariat_rapier::water::Immersed;
+use serde::{Deserialize, Serialize};
 
 /// The water of the world, in which bodies with [`InWater`] float, sink and ride on waves. Cables are in it by
 /// their [`Buoyancy`](crate::Buoyancy) and [`Drag`](crate::Drag), of the same [`Flow`](lariat_ancf::Flow). Change it at any time; remove
@@ -26,13 +27,13 @@ use lariat_rapier::water::Immersed;
 /// }
 /// assert!(world.get::<BodyPose>(float).unwrap().position.y.abs() < 0.01); // half of it is below
 /// ```
-#[derive(Resource, Clone, Debug, PartialEq)]
+#[derive(Resource, Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sea(pub Water);
 
 /// What the water of [`Sea`] does to a body: buoyancy and the forces of its wave, drag and added mass. It has the mass
 /// and the colliders that the body has when this component is added or changed. What cannot be in water is
 /// [`WaterFailed`](crate::event::WaterFailed); it is tried again when the component or the body changes.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InWater(pub Immersed);
 
 impl InWater {

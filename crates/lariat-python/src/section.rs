@@ -22,7 +22,7 @@ fn made(section: Result<ancf::Section, ancf::Error>) -> PyResult<Section> {
 
 /// Returns the material of a name, as scenes have it.
 fn named(material: &str) -> PyResult<ancf::RopeMaterial> {
-    serde_json::from_value(serde_json::Value::from(material))
+    serde_json::from_value(serde_json::Value::from(material.replace("-", "_")))
         .map_err(|error| raise(Raise::new("BuilderError", format!("material: {error}"))))
 }
 

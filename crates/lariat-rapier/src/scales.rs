@@ -230,11 +230,6 @@ pub(crate) mod step {
     /// worlds (tests, seeds) none takes more than 53, and half of them 4.
     pub(crate) const ITERATIONS_OF_GAMES: f64 = 2000.0;
 
-    /// Number of elements to integrate below which threads are left asleep. Measured, without a
-    /// test: to wake them takes as long.
-    #[cfg(feature = "parallel")]
-    pub(crate) const FEW_ELEMENTS: usize = 64;
-
     /// Largest h w of a body on its cables. Measured: jams of 1 kg under 1 and 5 kN
     /// ([`substepping`](crate::step::substepping)); 0.9 fails where two bodies hang on each other.
     pub(crate) const MAX_PHASE: f64 = 0.6;

@@ -136,7 +136,9 @@ impl fmt::Display for RopeKind {
 impl FromStr for RopeKind {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|kind| kind.name() == text.to_ascii_lowercase());
+        // `RopeMaterial` writes `wire_rope`
+        let name = text.to_ascii_lowercase().replace('_', "-");
+        let found = Self::ALL.into_iter().find(|kind| kind.name() == name);
         found.ok_or_else(|| Error::UnknownRopeKind {
             name: text.to_string(),
             expected: Self::ALL.map(RopeKind::name).join(", "),

@@ -9,6 +9,9 @@
 //!
 //! What was tried, and what it gave: docs/decisions/integration.md.
 
+use super::grain::cost_of_step;
+#[cfg(feature = "parallel")]
+use super::grain::jobs_of_task;
 use crate::cable::Cable;
 use crate::error::Error;
 use core::borrow::BorrowMut;
@@ -25,25 +28,31 @@ pub struct FleetError {
 }
 
 /// Advances each cable by `dt` (s) with its integrator, as [`Cable::step`] does; with the feature
-/// `parallel`, on the threads of rayon's present pool if there is more than one cable. `cables` are
-/// cables or mutable references to some.
+/// `parallel`, on as many threads of rayon's present pool as the work pays for. `cables` are cables
+/// or mutable references to some.
 ///
 /// # Errors
 /// [`FleetError`] if some could not step: these are as before, and all others have advanced.
 pub fn step_all<C: BorrowMut<Cable> + Send>(cables: &mut [C], dt: f64) -> Result<(), FleetError> {
-    let failures = failures(cables, |cable| cable.borrow_mut().step(dt));
+    let cost = |cables: &[C]| cables.iter().map(|cable| cost_of_step(cable.borrow())).sum();
+    let failures = failures(cables, cost, |cable| cable.borrow_mut().step(dt));
     if failures.is_empty() { Ok(()) } else { Err(FleetError { failures }) }
 }
 
 #[cfg(feature = "parallel")]
-fn failures<C: Send>(cables: &mut [C], step: impl Fn(&mut C) -> Result<(), Error> + Sync) -> Vec<(usize, Error)> {
+fn failures<C: Send>(
+    cables: &mut [C],
+    cost: impl Fn(&[C]) -> f64,
+    step: impl Fn(&mut C) -> Result<(), Error> + Sync,
+) -> Vec<(usize, Error)> {
     use rayon::prelude::*;
-    if cables.len() <= 1 {
-        return serial_failures(cables, step);
+    let of_task = jobs_of_task(cables.len(), cost(cables));
+    if of_task >= cables.len() {
+        return serial_failures(cables, cost, step);
     }
     // collecting them from the threads would allocate where there are none
     let failures = Mutex::new(Vec::new());
-    cables.par_iter_mut().enumerate().for_each(|(i, cable)| {
+    cables.par_iter_mut().with_min_len(of_task).enumerate().for_each(|(i, cable)| {
         if let Err(error) = step(cable) {
             failures.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push((i, error));
         }
@@ -56,6 +65,10 @@ fn failures<C: Send>(cables: &mut [C], step: impl Fn(&mut C) -> Result<(), Error
 #[cfg(not(feature = "parallel"))]
 use serial_failures as failures;
 
-fn serial_failures<C>(cables: &mut [C], step: impl Fn(&mut C) -> Result<(), Error>) -> Vec<(usize, Error)> {
+fn serial_failures<C>(
+    cables: &mut [C],
+    _cost: impl Fn(&[C]) -> f64,
+    step: impl Fn(&mut C) -> Result<(), Error>,
+) -> Vec<(usize, Error)> {
     cables.iter_mut().enumerate().filter_map(|(i, cable)| Some((i, step(cable).err()?))).collect()
 }

@@ -8,6 +8,7 @@ use crate::event::{AttachmentEnded, AttachmentFailed, EndReason};
 use crate::links::AttachmentLink;
 use crate::pending::Pending;
 use crate::physics::Physics;
+use crate::snapshot::Watched;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::{Commands, Has, Query, Ref, ResMut};
@@ -38,8 +39,8 @@ pub(crate) fn update(
     let new_cables = core::mem::take(&mut pending.new_cables);
     for (entity, attachment, on, to, attached, failed) in &attachments {
         let changed = attachment.is_changed()
-            || on.as_ref().is_some_and(|on| on.is_changed())
-            || to.as_ref().is_some_and(|to| to.is_changed())
+            || on.as_ref().is_some_and(|on| pending.has_changed(entity, Watched::OnCable, on))
+            || to.as_ref().is_some_and(|to| pending.has_changed(entity, Watched::ToBody, to))
             || new_cables
             || to.as_ref().is_some_and(|to| handles.get(to.0).is_ok_and(|body| body.is_changed()));
         let body = to.as_ref().map(|to| to.0).filter(|_| !attachment.world);

@@ -10,7 +10,7 @@ use bevy_ecs::prelude::{Added, Changed, Commands, Query, ResMut, Without};
 /// Returns a key that orders new bodies independently of the order of spawning: name, position,
 /// velocity and rotation.
 fn order(name: Option<&Name>, body: &Body) -> (String, [u32; 7]) {
-    let rigid = body.rigid.clone().build();
+    let rigid = body.rigid.build();
     let (x, v) = (rigid.translation(), rigid.linvel());
     let numbers = [x.x, x.y, x.z, v.x, v.y, v.z, rigid.rotation().w];
     (name.map(|n| n.as_str().to_string()).unwrap_or_default(), numbers.map(f32::to_bits))
@@ -32,7 +32,7 @@ pub(crate) fn update(
     ordered.sort();
     for (_, entity) in ordered {
         let Ok((_, body, _, mut pose)) = new.get_mut(entity) else { continue };
-        let handle = physics.insert_body(body.rigid.clone());
+        let handle = physics.insert_body(body.rigid.build());
         for collider in &body.colliders {
             physics.insert_collider(collider.clone(), Some(handle));
         }

@@ -6,6 +6,7 @@ pub(crate) mod bodies;
 pub(crate) mod drums;
 pub(crate) mod effects;
 pub(crate) mod junctions;
+pub(crate) mod kinks;
 pub(crate) mod passing;
 pub(crate) mod reels;
 pub(crate) mod removals;
@@ -16,19 +17,23 @@ use crate::cable::{Cable, build};
 use crate::cables::Cables;
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::interpolate::Interpolate;
+use crate::pending::Pending;
+use crate::snapshot::PutBack;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::{Changed, Commands, Query, Res, ResMut, World};
 use bevy_ecs::query::Allow;
+use bevy_ecs::system::SystemChangeTick;
 
 /// Starts the clock of the stage.
 pub(crate) fn begin(mut diagnostics: ResMut<Diagnostics>) {
     diagnostics.start();
 }
 
-/// Stops the clock of the stage.
-pub(crate) fn end(mut diagnostics: ResMut<Diagnostics>) {
+/// Stops the clock of the stage; what changed until now was seen.
+pub(crate) fn end(mut diagnostics: ResMut<Diagnostics>, mut pending: ResMut<Pending>, ticks: SystemChangeTick) {
     diagnostics.stop(Stage::Prepare);
+    (pending.prepared, pending.put_back) = (ticks.this_run(), PutBack::default());
 }
 
 /// Builds the cables that were spawned before [`install`](crate::install), or while [`Cables`] was

@@ -10,8 +10,10 @@ use crate::error::Error;
 use crate::event::SheaveFailed;
 use crate::links::{AttachmentLink, SheaveLink};
 use crate::passing::SheaveAlong;
+use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::sheave::Sheave;
+use crate::snapshot::Watched;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
@@ -28,7 +30,8 @@ pub(crate) fn update(world: &mut World, asked: &mut QueryState<(Entity, Ref<Shea
     let asked: Vec<_> = asked.iter(world).map(|(entity, sheave)| (entity, *sheave, sheave.is_changed())).collect();
     for (entity, sheave, is_changed) in asked {
         let changed = |cable: Entity| {
-            world.get_entity(cable).is_ok_and(|cable| cable.get_ref::<Cable>().is_some_and(|own| own.is_changed()))
+            let own = world.get_entity(cable).ok().and_then(|cable| cable.get_ref::<Cable>());
+            own.is_some_and(|own| world.resource::<Pending>().has_changed(cable, Watched::Cable, &own))
         };
         let body = |body: Entity| {
             world.get_entity(body).is_ok_and(|body| body.get_ref::<BodyHandle>().is_some_and(|own| own.is_changed()))

@@ -7,7 +7,10 @@ use crate::physics::Physics;
 use crate::water::{InWater, Sea};
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
-use bevy_ecs::prelude::{Query, Ref, RemovedComponents, Res, ResMut};
+use bevy_ecs::entity_disabling::Disabled;
+use bevy_ecs::prelude::{Query, Ref, Res, ResMut, With};
+use bevy_ecs::query::Allow;
+use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::water::BodiesInWater;
 
 /// Fills, changes and empties the water, and puts bodies into it.
@@ -16,21 +19,20 @@ pub(crate) fn update(
     mut physics: ResMut<Physics>,
     sea: Option<Res<Sea>>,
     bodies: Query<(Entity, Ref<InWater>, Ref<BodyHandle>)>,
-    handles: Query<&BodyHandle>,
-    mut removed: RemovedComponents<InWater>,
+    in_water: Query<(), (With<InWater>, Allow<Disabled>)>,
 ) {
     let Some(sea) = sea else {
         if let Some(mut water) = cables.set.set_water(None) {
             let inside: Vec<_> = water.bodies().collect();
             inside.into_iter().for_each(|body| _ = water.remove(&mut physics, body));
         }
-        removed.clear();
         return;
     };
-    for entity in removed.read() {
-        if let (Ok(body), Some(water)) = (handles.get(entity), cables.set.water_mut()) {
-            water.remove(&mut physics, body.handle);
-        }
+    let Cables { set, links, .. } = &mut *cables;
+    if let Some(water) = set.water_mut() {
+        let without = |body| links.bodies.get(&body).is_some_and(|entity| in_water.get(*entity).is_err());
+        let removed: Vec<RigidBodyHandle> = water.bodies().filter(|body| without(*body)).collect();
+        removed.into_iter().for_each(|body| _ = water.remove(&mut physics, body));
     }
     let is_new = cables.set.water().is_none();
     if sea.is_changed() || is_new {

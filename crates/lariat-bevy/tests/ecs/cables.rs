@@ -96,6 +96,36 @@ fn a_hanging_cable_starts_at_rest() {
     assert!((sag(&world) - before).abs() < 1e-5, "{} {before}", sag(&world));
 }
 
+/// A length by tension or sag is the same with either, is that by which effects take their shares, and hangs at rest as it says.
+///
+/// *Source.* Of the parabola, T = w l^2/(8 sag) to (8/3)(sag/l)^2, here 1e-3, and to the strain, 5e-3.
+#[test]
+fn a_length_is_given_by_tension_or_sag() {
+    let (span, weight) = (20.0, core::f64::consts::FRAC_PI_4 * 1e-4 * 4000.0 * 9.81);
+    let sag = 0.4;
+    let mut world = world();
+    let spawn = |world: &mut World, cable: Cable| {
+        let rope = world.spawn((cable.elements(20).hanging(), Damping::critical_fraction(0.2))).id();
+        world.spawn(pin(rope));
+        world.spawn(Attachment::ball(rope, At::End).to_world());
+        rope
+    };
+    let line = || soft([0.0; 3], [span, 0.0, 0.0]);
+    let hung = spawn(&mut world, line().sag(sag));
+    let (length, tension) = (cable_of(&world, hung).length(), cable_of(&world, hung).sample(10.0).unwrap().tension);
+    assert_relative_eq!(tension, weight * span * span / (8.0 * sag), max_relative = 7e-3);
+    let ropes = [spawn(&mut world, line().pretension(tension)), hung];
+    let fixed = world.spawn((line().elements(20).length(length), Damping::critical_fraction(0.2))).id();
+    assert_eq!(cable_of(&world, fixed).effects(), cable_of(&world, ropes[1]).effects());
+    assert_relative_eq!(cable_of(&world, ropes[0]).length(), length, max_relative = 2e-5);
+    steps(&mut world, 60);
+    for rope in ropes {
+        let middle = cable_of(&world, rope).sample(0.5 * length).unwrap();
+        assert_relative_eq!(-middle.position.y, sag, max_relative = 2e-3);
+        assert_relative_eq!(middle.tension, tension, max_relative = 5e-3);
+    }
+}
+
 #[test]
 fn a_curve_passes_through_the_nodes_and_interpolates_between_two_steps() {
     let mut world = world();

@@ -1,12 +1,12 @@
 //! Cables tied to each other by components.
 
-use super::common::{cable_of, cube, height, pin, soft, steps, world};
+use super::common::{bits, cable_of, cube, height, pin, soft, steps, world};
 use bevy_ecs::prelude::*;
 use lariat_bevy::event::{CableBroken, JunctionEnded, JunctionFailed};
 use lariat_bevy::lariat_ancf::Vector3;
 use lariat_bevy::{
-    At, Attachment, Bending, BreakTension, Cables, Damping, Error, Gap, Junction, Rope, Snapshot, SpawnRope,
-    lariat_rapier,
+    At, Attachment, Bending, BreakTension, Cables, Damping, Error, Gap, Junction, KinkAlong, OnCable, Rope, Snapshot,
+    SpawnRope, lariat_rapier,
 };
 
 /// Two ropes from the world to one point, and a third from there to a crate, tied by a junction:
@@ -151,4 +151,66 @@ fn a_spawned_rope_hangs_breaks_and_is_despawned_as_a_whole() {
     world.despawn(cable);
     assert!(world.get_entity(ends[0]).is_err());
     assert!(world.resource::<Cables>().get(cable).is_err());
+}
+
+/// A limp rope that a weight bends, with a kink at the weight: the two parts move as two cables that a junction ties, the hook at its
+/// end stays with the part behind, a snapshot from before goes on bitwise; at a point that is tied no kink is made.
+///
+/// *Source.* The two cables that are spawned as such.
+#[test]
+fn a_kink_is_an_entity() {
+    let ends = [[-1.0, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let damped = || Damping::time(2e-3);
+    let weigh = |world: &mut World| {
+        let load = world.spawn(cube(0.05, 5.0, [0.5, -0.6, 0.0])).id();
+        let hanger = world.spawn((soft([0.5, 0.0, 0.0], [0.5, -0.55, 0.0]), damped())).id();
+        world.spawn(Attachment::ball(hanger, At::End).to(load).at([0.0, 0.05, 0.0]));
+        (hanger, At::Start)
+    };
+    let mut world = world();
+    let rope = world.spawn((soft(ends[0], ends[2]).elements(8), damped())).id();
+    world.spawn(pin(rope));
+    let hook = world.spawn(Attachment::ball(rope, At::End).to_world()).id();
+    let kink = world.spawn(KinkAlong::of(rope, At::ArcLength(1.5))).id();
+    let tied = world.spawn(KinkAlong::of(rope, At::End)).id();
+    let snapshot = Snapshot::take(&mut world).unwrap();
+    let run = |world: &mut World| {
+        steps(world, 1);
+        let points = world.get::<Junction>(kink).unwrap().points.clone();
+        let hanger = weigh(world);
+        let mut junction = world.get_mut::<Junction>(kink).unwrap();
+        junction.points.push(hanger);
+        junction.gap = Gap::Close;
+        steps(world, 120);
+        points
+    };
+    let points = run(&mut world);
+    let failed: Vec<JunctionFailed> = world.resource_mut::<Messages<JunctionFailed>>().drain().collect();
+    assert!(matches!(failed[..], [JunctionFailed { entity, .. }] if entity == tied), "{failed:?}");
+    let [(before, At::End), (behind, At::Start)] = points[..] else { panic!("{points:?}") };
+    assert!(before == rope && world.get::<KinkAlong>(kink).is_none() && world.get::<Damping>(behind).is_some());
+    assert_eq!(world.get::<OnCable>(hook).unwrap().0, behind);
+    let once = [rope, behind].map(|part| bits(&world, part));
+    let knot = point(&world, rope, 1.5);
+    assert!(knot.y < -1e-3 && (knot - point(&world, behind, 0.0)).norm() < 1e-9, "{knot:?}");
+
+    snapshot.restore(&mut world).unwrap();
+    assert!(world.get::<Junction>(kink).is_none() && world.get::<KinkAlong>(kink).is_some());
+    let behind = run(&mut world)[1].0;
+    assert!(once == [rope, behind].map(|part| bits(&world, part)));
+
+    let mut two = super::common::world();
+    let parts = [(ends[0], ends[1], 6), (ends[1], ends[2], 2)];
+    let [first, last] = parts.map(|(from, to, n)| two.spawn((soft(from, to).elements(n), damped())).id());
+    two.spawn(pin(first));
+    two.spawn(Attachment::ball(last, At::End).to_world());
+    let knot = two.spawn(Junction::between((first, At::End), (last, At::Start))).id();
+    steps(&mut two, 1);
+    let hanger = weigh(&mut two);
+    let mut junction = two.get_mut::<Junction>(knot).unwrap();
+    junction.points.push(hanger);
+    junction.gap = Gap::Close;
+    steps(&mut two, 120);
+    let apart = (point(&two, first, 1.5) - point(&world, rope, 1.5)).norm();
+    assert!(apart < 1e-6, "{apart:e} m");
 }

@@ -15,6 +15,8 @@ mod mesh;
 mod order;
 mod pendulum;
 mod plugin;
+mod saved;
+mod scene;
 mod snapshots;
 mod water;
 mod wheels;

@@ -25,7 +25,7 @@ impl World {
     /// one point of a body. ``inertia``: that of the wheel over the square of its radius, in kg;
     /// ``friction``: tensions differ by up to exp(friction angle); ``turns``: angle in rad wound
     /// beyond that between the two; ``brake``: constant friction in N. Both need the integrator
-    /// "discrete-gradient" and one mass per length. Returns the number of the sheave. Raises
+    /// "discrete-gradient" and one section. Returns the number of the sheave. Raises
     /// ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError, NoCableError; what
     /// makes no sheave beyond that is an error of the next step.
     #[pyo3(signature = (first, at, second, second_at, *, inertia=0.0, friction=0.0, turns=0.0, brake=0.0))]

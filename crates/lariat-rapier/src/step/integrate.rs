@@ -8,11 +8,11 @@
 use crate::contents::{Contents, Slot};
 use crate::error::Error;
 use crate::islands::Island;
-#[cfg(feature = "parallel")]
-use crate::scales::step::FEW_ELEMENTS;
 use crate::step::budget::step_within;
 use crate::step::prediction::Prediction;
 use core::cell::RefCell;
+#[cfg(feature = "parallel")]
+use lariat_ancf::coupling::{cost_of_step, jobs_of_task};
 use lariat_ancf::integrate::WorkLimit;
 use lariat_ancf::island::Island as IslandSolver;
 use lariat_ancf::{Cable, Integrator};
@@ -128,9 +128,10 @@ fn run(jobs: &mut [Job<'_>]) {
     #[cfg(feature = "parallel")]
     {
         use rayon::prelude::*;
-        let elements = jobs.iter().flat_map(|job| &job.cables).map(|cable| cable.elements().len()).sum::<usize>();
-        if jobs.len() > 1 && elements >= FEW_ELEMENTS {
-            jobs.par_iter_mut().for_each(Job::run);
+        let cost = jobs.iter().flat_map(|job| &job.cables).map(|cable| cost_of_step(cable)).sum();
+        let of_task = jobs_of_task(jobs.len(), cost);
+        if of_task < jobs.len() {
+            jobs.par_iter_mut().with_min_len(of_task).for_each(Job::run);
             return;
         }
     }

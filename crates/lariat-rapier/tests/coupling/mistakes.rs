@@ -67,7 +67,11 @@ type Mistake = (&'static str, fn() -> String, &'static [&'static str]);
 
 const MISTAKES: &[Mistake] = &[
     // sizes and materials in another unit
-    ("a diameter in mm", || Yard::new().hung(line(Section::round(8.0, 2.1e11, 7850.0).unwrap())), &["as long as thick", "in m"]),
+    (
+        "a diameter in mm",
+        || Yard::new().hung(line(Section::round(8.0, 2.1e11, 7850.0).unwrap())),
+        &["as long as thick", "in m"],
+    ),
     ("a modulus in GPa", || Yard::new().hung(line(Section::round(0.008, 210.0, 7850.0).unwrap())), &["GPa"]),
     ("a density in g/cm^3", || Yard::new().hung(line(Section::round(0.008, 2.1e11, 7.85).unwrap())), &["g/cm^3 meant"]),
     (
@@ -78,7 +82,10 @@ const MISTAKES: &[Mistake] = &[
     ("a slack in percent", || Yard::new().hung(line(steel()).length(2.0 * 5.0)), &["% of slack", "a share meant"]),
     (
         "damping as a share of critical",
-        || Yard::new().hung(with(Effects { damping: Some(Damping { axial: 2.0, bending: 0.0 }), ..Effects::default() })),
+        || {
+            Yard::new()
+                .hung(with(Effects { damping: Some(Damping { axial: 2.0, bending: 0.0 }), ..Effects::default() }))
+        },
         &["2 s", "damped_as"],
     ),
     (
@@ -103,65 +110,111 @@ const MISTAKES: &[Mistake] = &[
     ("no number", || Yard::new().hung(line(steel()).length(f64::NAN)), &["length"]),
     ("no element", || Yard::new().hung(line(steel()).elements(0)), &["element"]),
     ("no section", || Yard::new().hung(Cable::builder().points([Vector3::zeros(), Vector3::x()])), &["section"]),
-    ("a breaking load of 0", || {
-        let mut yard = Yard::new();
-        let rope = yard.set.insert(line(steel()).build().unwrap());
-        yard.set.set_strength(rope, 0.0).unwrap_err().to_string()
-    }, &["breaking tension (N)", "> 0"]),
+    (
+        "a breaking load of 0",
+        || {
+            let mut yard = Yard::new();
+            let rope = yard.set.insert(line(steel()).build().unwrap());
+            yard.set.set_strength(rope, 0.0).unwrap_err().to_string()
+        },
+        &["breaking tension (N)", "> 0"],
+    ),
     // places
-    ("a load behind the end", || Yard::new().hung(line(steel()).load(PointLoad::force(2.5, [1.0, 0.0, 0.0]))), &["2.5"]),
-    ("an anchor in the axes of the world", || {
-        let mut yard = Yard::new();
-        let rope = yard.set.insert(line(steel()).fix(At::Start).build().unwrap());
-        let anchor = Vector::new(0.0, -2.0, 0.0);
-        yard.set.attach(&yard.world, rope, At::End, yard.load, anchor, AttachmentKind::Ball).unwrap_err().to_string()
-    }, &["from what it is to be attached to"]),
-    ("an attachment twice", || {
-        let mut yard = Yard::new();
-        let rope = yard.set.insert(line(steel()).fix(At::Start).build().unwrap());
-        let mut attach = |at| {
-            let anchor = Vector::new(0.0, 0.1, 0.0);
-            yard.set.attach(&yard.world, rope, at, yard.load, anchor, AttachmentKind::Ball)
-        };
-        attach(At::End).unwrap();
-        attach(At::ArcLength(2.0)).unwrap_err().to_string()
-    }, &["attached already"]),
-    ("a cable that was removed", || {
-        let mut yard = Yard::new();
-        let rope = yard.set.insert(line(steel()).build().unwrap());
-        yard.set.remove(&mut yard.world, rope).unwrap();
-        yard.set.get(rope).unwrap_err().to_string()
-    }, &["cable"]),
-    ("both ends at one place", || {
-        let mut yard = Yard::new();
-        yard.set.add_rope(&yard.world, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0], Rope::steel(0.008)).unwrap_err().to_string()
-    }, &["point"]),
-    ("a rope drawn through the floor", || {
-        let mut yard = Yard::new();
-        let floor = ColliderBuilder::cuboid(5.0, 0.5, 5.0).translation(Vector::new(0.0, -0.5, 0.0));
-        yard.world.insert_collider(floor, None);
-        let contact = Effects { contact: Some(Contact::default()), ..Effects::default() };
-        let rope = Cable::builder().points([Vector3::new(1.0, 0.1, 0.0), Vector3::new(4.0, 0.1, 0.0)]).length(3.3);
-        let rope = rope.section(steel()).effects(contact).fix(At::Start).fix(At::End).build().unwrap();
-        yard.set.insert(rope);
-        yard.said(0)
-    }, &["inside", "contact does not push it out"]),
+    (
+        "a load behind the end",
+        || Yard::new().hung(line(steel()).load(PointLoad::force(2.5, [1.0, 0.0, 0.0]))),
+        &["2.5"],
+    ),
+    (
+        "an anchor in the axes of the world",
+        || {
+            let mut yard = Yard::new();
+            let rope = yard.set.insert(line(steel()).fix(At::Start).build().unwrap());
+            let anchor = Vector::new(0.0, -2.0, 0.0);
+            yard.set
+                .attach(&yard.world, rope, At::End, yard.load, anchor, AttachmentKind::Ball)
+                .unwrap_err()
+                .to_string()
+        },
+        &["from what it is to be attached to"],
+    ),
+    (
+        "an attachment twice",
+        || {
+            let mut yard = Yard::new();
+            let rope = yard.set.insert(line(steel()).fix(At::Start).build().unwrap());
+            let mut attach = |at| {
+                let anchor = Vector::new(0.0, 0.1, 0.0);
+                yard.set.attach(&yard.world, rope, at, yard.load, anchor, AttachmentKind::Ball)
+            };
+            attach(At::End).unwrap();
+            attach(At::ArcLength(2.0)).unwrap_err().to_string()
+        },
+        &["attached already"],
+    ),
+    (
+        "a cable that was removed",
+        || {
+            let mut yard = Yard::new();
+            let rope = yard.set.insert(line(steel()).build().unwrap());
+            yard.set.remove(&mut yard.world, rope).unwrap();
+            yard.set.get(rope).unwrap_err().to_string()
+        },
+        &["cable"],
+    ),
+    (
+        "both ends at one place",
+        || {
+            let mut yard = Yard::new();
+            yard.set
+                .add_rope(&yard.world, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0], Rope::steel(0.008))
+                .unwrap_err()
+                .to_string()
+        },
+        &["point"],
+    ),
+    (
+        "a rope drawn through the floor",
+        || {
+            let mut yard = Yard::new();
+            let floor = ColliderBuilder::cuboid(5.0, 0.5, 5.0).translation(Vector::new(0.0, -0.5, 0.0));
+            yard.world.insert_collider(floor, None);
+            let contact = Effects { contact: Some(Contact::default()), ..Effects::default() };
+            let rope = Cable::builder().points([Vector3::new(1.0, 0.1, 0.0), Vector3::new(4.0, 0.1, 0.0)]).length(3.3);
+            let rope = rope.section(steel()).effects(contact).fix(At::Start).fix(At::End).build().unwrap();
+            yard.set.insert(rope);
+            yard.said(0)
+        },
+        &["inside", "contact does not push it out"],
+    ),
     // what does not go together, and steps
     (
         "an explicit method on steel",
-        || Yard::new().hung(line(steel()).integrator(Integrator { method: Method::Verlet, control: StepControl::MaxStep(1e-3) })),
+        || {
+            Yard::new().hung(
+                line(steel()).integrator(Integrator { method: Method::Verlet, control: StepControl::MaxStep(1e-3) }),
+            )
+        },
         &["step"],
     ),
     ("a rule with spare modes", || Yard::new().hung(line(steel()).rule("G2-2".parse::<Rule>().unwrap())), &["rank"]),
-    ("contact by a method without it", || {
-        let contact = Effects { contact: Some(Contact::default()), ..Effects::default() };
-        let method = Integrator::tolerance(Method::Esdirk4, 1e-6).unwrap();
-        Yard::new().hung(with(contact).integrator(method))
-    }, &["contact", "discrete-gradient"]),
-    ("a reel that cannot start", || {
-        let mut rope = line(steel()).fix(At::Start).build().unwrap();
-        rope.add_reel(At::Start, Reel { acceleration: 0.0, ..Reel::with_rate(1.0) }).unwrap_err().to_string()
-    }, &["acceleration", "> 0"]),
+    (
+        "contact by a method without it",
+        || {
+            let contact = Effects { contact: Some(Contact::default()), ..Effects::default() };
+            let method = Integrator::tolerance(Method::Esdirk4, 1e-6).unwrap();
+            Yard::new().hung(with(contact).integrator(method))
+        },
+        &["contact", "discrete-gradient"],
+    ),
+    (
+        "a reel that cannot start",
+        || {
+            let mut rope = line(steel()).fix(At::Start).build().unwrap();
+            rope.add_reel(At::Start, Reel { acceleration: 0.0, ..Reel::with_rate(1.0) }).unwrap_err().to_string()
+        },
+        &["acceleration", "> 0"],
+    ),
 ];
 
 /// The first line names what is to be changed.

@@ -13,7 +13,7 @@ const GAP: f64 = 1e-3;
 
 table! {
     /// A wheel or an eye that a cable runs over: along one cable (`cable`, `at`, `body`, `anchor`), or from the last point of one cable to the first
-    /// point of another (`from`, `to`), which attachments hold at one point and which have one mass per length. Several may be along a
+    /// point of another (`from`, `to`), which attachments hold at one point and which have one mass per length, EA and EI. Several may be along a
     /// cable. It stays one cable: attachments, loads, probes, cuts and breaks count arc lengths along all of it, at t = 0, and stay with
     /// their material, as probes do where it runs over the wheel. Between sheaves it is computed in parts; an attachment, a junction or a load
     /// stops it before it comes to the wheel, which a warning tells. Needs the integrator `discrete-gradient` and `engine = "rapier"`.

@@ -45,12 +45,14 @@ pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Err
         if (p - q).norm() > GAP + 2.0 * sheave.radius {
             return refused(a, "the two ends at a sheave are not at one point");
         }
-        let [m, n] = ends.map(|(cable, side)| {
+        // what passes takes the section of the other side
+        let [of_a, of_b] = ends.map(|(cable, side)| {
             let model = &cables[cable].model;
-            model.inertia(&model.elements[side.element(model.elements.len())])
+            let element = &model.elements[side.element(model.elements.len())];
+            [model.inertia(element), element.section.axial_stiffness, element.section.bending_stiffness]
         });
-        if (m - n).abs() > SAME * m {
-            return refused(b, "a sheave joins cables of one mass per length");
+        if of_a.iter().zip(of_b).any(|(m, n)| (m - n).abs() > SAME * m) {
+            return refused(b, "a sheave joins cables of one mass per length, EA and EI");
         }
     }
     for (c, cable) in cables.iter().enumerate() {
