@@ -17,7 +17,8 @@
 //! # Validity
 //!
 //! Tension falls and sag grows with the length. A cable without weight has no sag; a tension that a
-//! cable of five times the drawn length has not fallen to is refused, as is any below the least one.
+//! cable of five times the drawn length has not fallen to is refused, as is any below the least
+//! one.
 //!
 //! # References
 //!

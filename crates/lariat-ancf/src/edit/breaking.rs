@@ -27,9 +27,9 @@
 //! breaks it: what is at its limit then was so at the break. What else exceeds the limit at the
 //! time of a break breaks by its own load once its part has recoiled: a rope breaks at one place.
 //!
-//! What flies freely and snaps taut again, behind a body that accelerates say, breaks by a load of its
-//! own, and without damping that goes on until the parts are short: how often is a matter of what a
-//! real rope dissipates, and [`Warning::BreaksAgain`](crate::Warning::BreaksAgain) says so.
+//! What flies freely and snaps taut again, behind a body that accelerates say, breaks by a load of
+//! its own, and without damping that goes on until the parts are short: how often is a matter of
+//! what a real rope dissipates, and [`Warning::BreaksAgain`](crate::Warning::BreaksAgain) says so.
 //!
 //! Breaking at a node
 //! changes neither shape nor motion, so mass, momenta and energy of the parts are those of the
@@ -139,8 +139,8 @@ impl Cable {
         Ok([(rest, how)].into_iter().chain(before).chain(behind).collect())
     }
 
-    /// Lets a part of a cable that broke or was cut recoil: it breaks no more by that. `breaks` made
-    /// it what it is.
+    /// Lets a part of a cable that broke or was cut recoil: it breaks no more by that. `breaks`
+    /// made it what it is.
     fn recoil(&mut self, breaks: u32) {
         let energy = self.reading().strain_energy();
         let of = |f: &dyn Fn(&Element) -> f64| self.elements().iter().map(f).sum::<f64>();

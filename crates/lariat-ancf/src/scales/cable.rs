@@ -97,8 +97,8 @@ pub(crate) const LARGEST_ROPE: f64 = 0.35;
 /// to about that.
 pub(crate) const SPAN_WITHIN: f64 = 1e-8;
 
-/// Longest slack, in drawn lengths, in which a tension is sought. Derived: a rope five times as long
-/// as its span bends within a thirtieth of its length, where meshes of tens of elements end.
+/// Longest slack, in drawn lengths, in which a tension is sought. Derived: a rope five times as
+/// long as its span bends within a thirtieth of its length, where meshes of tens of elements end.
 pub(crate) const SPAN_SLACKEST: f64 = 4.0;
 
 /// Rounds of the search for that length. Derived: bisection of a factor 2 down to rounding.

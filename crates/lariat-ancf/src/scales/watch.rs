@@ -113,8 +113,8 @@ pub(crate) const LIGHTEST: f64 = 10.0;
 /// any solid ([`sizes`](crate::warning) names the paper).
 pub(crate) const FASTEST: f64 = 3.6e4;
 
-/// Depth in m in an obstacle, beyond the radius of contact, from which a cable is told to start in it.
-/// Setting: what is drawn by hand is off by less.
+/// Depth in m in an obstacle, beyond the radius of contact, from which a cable is told to start in
+/// it. Setting: what is drawn by hand is off by less.
 pub(crate) const INSIDE: f64 = 1e-3;
 
 /// Speed in m/s above which no current is. Derived: the fastest tidal streams have 10.
@@ -123,8 +123,8 @@ pub(crate) const FASTEST_CURRENT: f64 = 12.0;
 /// Speed in m/s above which no wind is. Derived: the fastest gust that was measured had 113.
 pub(crate) const FASTEST_WIND: f64 = 120.0;
 
-/// Least density in kg/m^3 of a liquid of which drag is computed. Derived: between that of gases, 10,
-/// and that of the lightest, liquid hydrogen aside, 400.
+/// Least density in kg/m^3 of a liquid of which drag is computed. Derived: between that of gases,
+/// 10, and that of the lightest, liquid hydrogen aside, 400.
 pub(crate) const LEAST_LIQUID: f64 = 100.0;
 
 /// Strain above which only rubber stretches. Derived: undrawn fibres break below it.
@@ -134,8 +134,8 @@ pub(crate) const MOST_STRETCH: f64 = 0.5;
 /// rubber, and a hundredth.
 pub(crate) const SOFTEST_CURVE: f64 = 0.03;
 
-/// Breaks of one cable and its parts, one after another. Setting: a part that breaks and a part of it
-/// that does are of loads that were there.
+/// Breaks of one cable and its parts, one after another. Setting: a part that breaks and a part of
+/// it that does are of loads that were there.
 pub(crate) const BREAKS: u32 = 3;
 
 /// Largest thickness in m. Derived: above 1.42 m, the thickest pipelines.

@@ -14,7 +14,8 @@
 //! suspension bridges (Akashi Kaikyo: 1.12 m) and the thickest pipelines 1.42 m (56 inches). The
 //! fastest tidal streams run at 10 m/s (Saltstraumen), and the fastest gust that was measured had
 //! 113 m/s (Barrow Island, 1996). A curve of which all secants are below a thirtieth of EA, up to
-//! strains that only rubber bears, has its strains in percent: rubber's own secants fall to a fifth.
+//! strains that only rubber bears, has its strains in percent: rubber's own secants fall to a
+//! fifth.
 
 use super::Warning;
 use crate::effect::{AxialLaw, Damping, Drag};

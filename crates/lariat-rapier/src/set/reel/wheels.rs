@@ -64,7 +64,8 @@ impl CableSet {
 
     /// Lets a cable run into another over a sheave: `from` and `to` are ends of cables that are
     /// attached at one point, to a body or to the world. Both need the integrator
-    /// `discrete-gradient`, and one mass per length, EA and EI. The sheave ends with one of the attachments.
+    /// `discrete-gradient`, and one mass per length, EA and EI. The sheave ends with one of the
+    /// attachments.
     ///
     /// # Errors
     /// [`Error::NoCable`]; [`Error::Cable`] for a point that is not an end, an end with a reel, or
