@@ -726,9 +726,8 @@ class World:
     ) -> int:
         """Lets the first cable run into the second over a wheel, where an end of each is attached to one point of a body. ``inertia``: that of
         the wheel over the square of its radius, in kg; ``friction``: tensions differ by up to exp(friction angle); ``turns``: angle in rad
-        wound beyond that between the two; ``brake``: constant friction in N. Both need the integrator "discrete-gradient" and one mass
-        per length. Returns the number of the sheave. Raises ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError,
-        NoCableError; what makes no sheave beyond that is an error of the next step."""
+        wound beyond that between the two; ``brake``: constant friction in N. Both need the integrator "discrete-gradient" and one section.
+        Returns the number of the sheave. Raises ReelPlaceError, ReelMethodError, NotWithReelError, InvalidValueError, NoCableError; what makes no sheave beyond that is an error of the next step."""
 
     def add_sheave_at(
         self,
