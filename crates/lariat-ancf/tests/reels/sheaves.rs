@@ -349,6 +349,23 @@ fn sheaves_are_plain_state_and_refused_by_name() {
     refused(&|tackle| tackle.sheaves[0].to = (7, true), "7");
     refused(&|tackle| tackle.sheaves[0].to = (1, false), "no Reel::over_sheave");
     refused(&|tackle| tackle.sheaves[0].to = tackle.sheaves[0].from, "at one sheave");
+    // what passes would take the section of the other side
+    for (axial, bending, mass) in [(2.0, 1.0, 1.0), (1.0, 2.0, 1.0), (1.0, 1.0, 2.0)] {
+        let other = |tackle: &mut Tackle| {
+            let from = tackle.cables[1].elements()[0].section;
+            let [ea, ei, rho] =
+                [from.axial_stiffness * axial, from.bending_stiffness.max(1e-3) * bending, from.mass_per_length];
+            let section = Section::from_stiffness(ea, ei, rho * mass).unwrap();
+            let points =
+                [tackle.cables[1].node_position(0), tackle.cables[1].node_position(tackle.cables[1].nodes() - 1)];
+            let builder = Cable::builder().points(points).section(section).elements(6).integrator(GAME);
+            let mut cable = builder.fix(At::Start).build().unwrap();
+            cable.attach(At::End).unwrap();
+            cable.add_reel(At::Start, Reel::over_sheave()).unwrap();
+            tackle.cables[1] = cable;
+        };
+        refused(&other, "one mass per length, EA and EI");
+    }
     let mut alone = atwood([1.0, 2.0], [3.0, 1.0], 0.1, 1.0 / 240.0).cables.remove(1);
     alone.release(At::End).unwrap();
     assert!(alone.step(0.01).unwrap_err().to_string().contains("only an island with that sheave"));
