@@ -37,7 +37,7 @@ impl Cable {
             Ok(()) => {
                 let (old, new) = own.split_at(before);
                 let is_known = |o: &Obstacle| old.binary_search_by_key(&o.key, |old| old.key).is_ok();
-                is_new = !new.iter().all(is_known);
+                is_new = self.watch.is_some() && self.model.contact_key == 0 && !new.iter().all(is_known);
                 let posed = new.iter().find_map(|obstacle| obstacle.posed(old, time));
                 self.posed = posed.map(|(key, distance)| (time, key, distance));
                 drop(own.drain(..before));

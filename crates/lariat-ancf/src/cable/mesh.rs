@@ -115,6 +115,7 @@ impl Cable {
     pub(crate) fn largest_strain(&self) -> (f64, f64, f64) {
         let (q, mut largest, mut s) = (self.positions(), (0.0, 0.0, 0.0), 0.0);
         let rest = self.effects().rest_shape.as_ref();
+        let is_green = self.effects().axial_law.is_none();
         for (e, element) in self.elements().iter().enumerate() {
             let stretch = rest.map_or(1.0, |rest| rest.at(s + 0.5 * element.length).0);
             s += element.length;
@@ -124,7 +125,6 @@ impl Cable {
                 let share = (strain - 0.5 * (stretch * stretch - 1.0)) * (1.0 + 2.0 * strain).max(0.0).sqrt();
                 if share > largest.0 {
                     let stiffness = element.section.axial_stiffness;
-                    let is_green = self.effects().axial_law.is_none();
                     let tension = match is_green && self.model.axial_stiffness(element) == stiffness {
                         true => share * stiffness,
                         false => self.reading().pull(e, xi, &at).tension,

@@ -84,8 +84,11 @@ impl Span {
                 break;
             }
             // whatever hangs from both ends hangs by half of its slack
-            let last = if let Span::Sag(sag) = self { 4.0 * sag.max(drawn) / drawn } else { SPAN_SLACKEST };
-            let last = if longer { last } else { 1.0 };
+            let last = match self {
+                _ if !longer => 1.0,
+                Span::Sag(sag) => 4.0 * sag.max(drawn) / drawn,
+                Span::Tension(_) => SPAN_SLACKEST,
+            };
             if step >= last {
                 unreached()?;
             }
@@ -116,8 +119,10 @@ impl Cable {
     fn force_at_middle(&self) -> Result<f64, Error> {
         let half = 0.5 * self.length();
         let (e, xi) = self.model.locate(half);
-        let force = self.carried(e).map(|[first, last]| first.force.lerp(&last.force, xi).norm());
-        force.map_or_else(|| Ok(self.sample(half)?.tension), Ok)
+        match self.carried(e) {
+            Some([first, last]) => Ok(first.force.lerp(&last.force, xi).norm()),
+            None => Ok(self.sample(half)?.tension),
+        }
     }
 
     /// Returns the largest distance in m from the drawn line along gravity.

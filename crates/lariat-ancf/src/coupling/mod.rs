@@ -15,8 +15,7 @@
 mod engine;
 mod linearisation;
 
-pub use crate::step::cost_of_step;
 #[cfg(feature = "parallel")]
-pub use crate::step::jobs_of_task;
+pub use crate::step::{cost_of_step, jobs_of_task};
 pub use engine::Coupling;
 pub use linearisation::{Linearisation, TwistBorder};

@@ -9,9 +9,8 @@
 //!
 //! What was tried, and what it gave: docs/decisions/integration.md.
 
-use super::grain::cost_of_step;
 #[cfg(feature = "parallel")]
-use super::grain::jobs_of_task;
+use super::grain::{cost_of_step, jobs_of_task};
 use crate::cable::Cable;
 use crate::error::Error;
 use core::borrow::BorrowMut;
@@ -34,26 +33,22 @@ pub struct FleetError {
 /// # Errors
 /// [`FleetError`] if some could not step: these are as before, and all others have advanced.
 pub fn step_all<C: BorrowMut<Cable> + Send>(cables: &mut [C], dt: f64) -> Result<(), FleetError> {
-    let cost = |cables: &[C]| cables.iter().map(|cable| cost_of_step(cable.borrow())).sum();
-    let failures = failures(cables, cost, |cable| cable.borrow_mut().step(dt));
+    let failures = failures(cables, dt);
     if failures.is_empty() { Ok(()) } else { Err(FleetError { failures }) }
 }
 
 #[cfg(feature = "parallel")]
-fn failures<C: Send>(
-    cables: &mut [C],
-    cost: impl Fn(&[C]) -> f64,
-    step: impl Fn(&mut C) -> Result<(), Error> + Sync,
-) -> Vec<(usize, Error)> {
+fn failures<C: BorrowMut<Cable> + Send>(cables: &mut [C], dt: f64) -> Vec<(usize, Error)> {
     use rayon::prelude::*;
-    let of_task = jobs_of_task(cables.len(), cost(cables));
+    let cost = cables.iter().map(|cable| cost_of_step(cable.borrow())).sum();
+    let of_task = jobs_of_task(cables.len(), cost);
     if of_task >= cables.len() {
-        return serial_failures(cables, cost, step);
+        return serial_failures(cables, dt);
     }
     // collecting them from the threads would allocate where there are none
     let failures = Mutex::new(Vec::new());
     cables.par_iter_mut().with_min_len(of_task).enumerate().for_each(|(i, cable)| {
-        if let Err(error) = step(cable) {
+        if let Err(error) = cable.borrow_mut().step(dt) {
             failures.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push((i, error));
         }
     });
@@ -65,10 +60,7 @@ fn failures<C: Send>(
 #[cfg(not(feature = "parallel"))]
 use serial_failures as failures;
 
-fn serial_failures<C>(
-    cables: &mut [C],
-    _cost: impl Fn(&[C]) -> f64,
-    step: impl Fn(&mut C) -> Result<(), Error>,
-) -> Vec<(usize, Error)> {
-    cables.iter_mut().enumerate().filter_map(|(i, cable)| Some((i, step(cable).err()?))).collect()
+fn serial_failures<C: BorrowMut<Cable>>(cables: &mut [C], dt: f64) -> Vec<(usize, Error)> {
+    let step = |(i, cable): (usize, &mut C)| Some((i, cable.borrow_mut().step(dt).err()?));
+    cables.iter_mut().enumerate().filter_map(step).collect()
 }

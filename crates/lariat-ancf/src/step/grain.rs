@@ -16,7 +16,6 @@
 //! them, for no cable or island reads what another one writes.
 
 use crate::cable::Cable;
-#[cfg(feature = "parallel")]
 use crate::scales::integrate::EVALUATIONS_OF_TASK;
 
 /// Returns about how many evaluations of an element a host step of a cable takes: the mean of those
@@ -30,7 +29,6 @@ pub fn cost_of_step(cable: &Cable) -> f64 {
 
 /// Returns how many of some jobs, which together cost so many evaluations of an element, one task
 /// of a thread pool should take at least; all of them where threads do not pay.
-#[cfg(feature = "parallel")]
 pub fn jobs_of_task(jobs: usize, cost: f64) -> usize {
     let tasks = (cost / EVALUATIONS_OF_TASK).floor().max(1.0);
     (jobs as f64 / tasks).ceil().max(1.0) as usize

@@ -1,14 +1,14 @@
 //! One host step of a cable by itself, or of many that nothing connects.
 
 mod fleet;
+#[cfg(feature = "parallel")]
 mod grain;
 mod reel;
 
 use crate::scales::SMALLEST;
 pub use fleet::{FleetError, step_all};
-pub use grain::cost_of_step;
 #[cfg(feature = "parallel")]
-pub use grain::jobs_of_task;
+pub use grain::{cost_of_step, jobs_of_task};
 
 use crate::cable::{Cable, check_integrator};
 use crate::error::{Error, require};

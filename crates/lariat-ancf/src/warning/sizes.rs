@@ -18,7 +18,7 @@
 //! fifth.
 
 use super::Warning;
-use crate::effect::{AxialLaw, Damping, Drag};
+use crate::effect::{AxialLaw, Damping, Drag, Effects};
 use crate::scales::watch::{
     FASTEST, FASTEST_CURRENT, FASTEST_WIND, LEAST_LIQUID, LIGHTEST, MOST_STRETCH, SLACK, SLENDERNESS, SLOWEST,
     SLOWEST_STRETCH, SOFTEST, SOFTEST_CURVE, THICKEST,
@@ -49,14 +49,22 @@ pub fn slack(cable: &str, length_m: f64, drawn_m: f64) -> Option<Warning> {
     (length_m > SLACK * drawn_m).then(|| Warning::MuchSlack { cable: cable.to_string(), length_m, drawn_m })
 }
 
+/// Returns the warnings about numbers of effects in another measure, on a cable of an EA in N.
+pub fn of_effects(cable: &str, effects: &Effects, axial_stiffness_n: f64) -> impl Iterator<Item = Warning> {
+    let damping = effects.damping.as_ref().and_then(|own| damping(cable, own));
+    let drag = effects.drag.iter().flat_map(move |own| drag(cable, own));
+    let curve = effects.axial_law.as_ref().and_then(|law| curve(cable, law, axial_stiffness_n));
+    damping.into_iter().chain(drag).chain(curve)
+}
+
 /// Returns the warning about damping in another measure.
-pub fn damping(cable: &str, damping: &Damping) -> Option<Warning> {
+fn damping(cable: &str, damping: &Damping) -> Option<Warning> {
     let axial_s = damping.axial;
     (axial_s > SLOWEST_STRETCH).then(|| Warning::SlowStretch { cable: cable.to_string(), axial_s })
 }
 
 /// Returns the warnings about drag on a diameter in mm, and of a flow in knots or km/h.
-pub fn drag(cable: &str, drag: &Drag) -> impl Iterator<Item = Warning> {
+fn drag(cable: &str, drag: &Drag) -> impl Iterator<Item = Warning> {
     let name = || cable.to_string();
     let diameter = drag.diameter.filter(|diameter| *diameter > THICKEST);
     let thick = diameter.map(|diameter_m| Warning::ThickDrag { cable: name(), diameter_m });
@@ -68,7 +76,7 @@ pub fn drag(cable: &str, drag: &Drag) -> impl Iterator<Item = Warning> {
 }
 
 /// Returns the warning about a curve whose strains are in percent, of a cable of an EA in N.
-pub fn curve(cable: &str, law: &AxialLaw, axial_stiffness_n: f64) -> Option<Warning> {
+fn curve(cable: &str, law: &AxialLaw, axial_stiffness_n: f64) -> Option<Warning> {
     let AxialLaw::Curve(rows) = law else { return None };
     let stiffest = |[strain, force]: &[f64; 2]| if *strain > 0.0 { force / strain } else { 0.0 };
     let &[strain, force_n] = rows.last()?;

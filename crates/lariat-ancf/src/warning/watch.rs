@@ -337,15 +337,13 @@ impl Cable {
         // a reel pays out more than was drawn
         let drawn = self.model.drawn_length.filter(|_| !self.has_reel());
         let slack = drawn.and_then(|drawn| sizes::slack(name, length, drawn));
-        let damping = self.effects().damping.as_ref().and_then(|damping| sizes::damping(name, damping));
         let elements = || self.elements().iter();
         let thickness = |element: &crate::Element| element.section.diameter.unwrap_or(0.0) / element.length;
         let thickest = elements().max_by(|a, b| thickness(a).total_cmp(&thickness(b)));
         let thick = thickest.and_then(|e| sizes::elements(name, &e.section, length, e.length));
-        let stiffness = elements().map(|e| e.section.axial_stiffness).fold(0.0, f64::max);
-        let drag = self.effects().drag.iter().flat_map(|drag| sizes::drag(name, drag));
-        let curve = self.effects().axial_law.as_ref().and_then(|law| sizes::curve(name, law, stiffness));
-        shapes.chain(slack).chain(damping).chain(thick).chain(drag).chain(curve)
+        // of a cable with a curve it is the same everywhere
+        let stiffness = self.elements()[0].section.axial_stiffness;
+        shapes.chain(slack).chain(thick).chain(sizes::of_effects(name, self.effects(), stiffness))
     }
 
     /// Lets the cable read itself after each of its host steps, or no longer:

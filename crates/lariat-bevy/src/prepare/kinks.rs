@@ -1,15 +1,13 @@
 //! Makes the kinks that components ask for, and the entities of the parts behind them.
 
+use super::has_cable_changed;
 use crate::breaking::split_entity;
-use crate::cable::Cable;
 use crate::cables::Cables;
 use crate::error::Error;
 use crate::event::JunctionFailed;
 use crate::junction::{Joined, Junction};
 use crate::kink::KinkAlong;
 use crate::links::JunctionLink;
-use crate::pending::Pending;
-use crate::snapshot::Watched;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
@@ -21,11 +19,7 @@ use lariat_ancf::At;
 pub(crate) fn update(world: &mut World, asked: &mut QueryState<(Entity, Ref<KinkAlong>), Allow<Disabled>>) {
     let asked: Vec<_> = asked.iter(world).map(|(entity, kink)| (entity, *kink, kink.is_changed())).collect();
     for (entity, kink, is_changed) in asked {
-        let changed = |cable: Entity| {
-            let own = world.get_entity(cable).ok().and_then(|cable| cable.get_ref::<Cable>());
-            own.is_some_and(|own| world.resource::<Pending>().has_changed(cable, Watched::Cable, &own))
-        };
-        if (is_changed || changed(kink.cable.0))
+        if (is_changed || has_cable_changed(world, kink.cable.0))
             && let Err(error) = make(world, entity, kink)
         {
             world.resource_mut::<Cables>().events.push(JunctionFailed { entity, error }.into());

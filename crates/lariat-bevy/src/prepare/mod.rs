@@ -18,12 +18,18 @@ use crate::cables::Cables;
 use crate::diagnostics::{Diagnostics, Stage};
 use crate::interpolate::Interpolate;
 use crate::pending::Pending;
-use crate::snapshot::PutBack;
+use crate::snapshot::{PutBack, Watched};
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::{Changed, Commands, Query, Res, ResMut, World};
 use bevy_ecs::query::Allow;
 use bevy_ecs::system::SystemChangeTick;
+
+/// Returns whether the description of a cable changed since this was asked last.
+fn has_cable_changed(world: &World, entity: Entity) -> bool {
+    let own = world.get_entity(entity).ok().and_then(|cable| cable.get_ref::<Cable>());
+    own.is_some_and(|own| world.resource::<Pending>().has_changed(entity, Watched::Cable, &own))
+}
 
 /// Starts the clock of the stage.
 pub(crate) fn begin(mut diagnostics: ResMut<Diagnostics>) {

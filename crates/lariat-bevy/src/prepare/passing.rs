@@ -1,19 +1,17 @@
 //! Makes the sheaves along a cable that components ask for, and the entities of its parts and attachments.
 
 use super::attachments::ground;
+use super::has_cable_changed;
 use crate::attachment::{Attached, Attachment, OnCable, ToBody};
 use crate::body::BodyHandle;
 use crate::breaking::split_entity;
-use crate::cable::Cable;
 use crate::cables::Cables;
 use crate::error::Error;
 use crate::event::SheaveFailed;
 use crate::links::{AttachmentLink, SheaveLink};
 use crate::passing::SheaveAlong;
-use crate::pending::Pending;
 use crate::physics::Physics;
 use crate::sheave::Sheave;
-use crate::snapshot::Watched;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::entity_disabling::Disabled;
@@ -29,14 +27,10 @@ use lariat_rapier::{AttachmentKind, CableHandle, Gap, SheaveHandle};
 pub(crate) fn update(world: &mut World, asked: &mut QueryState<(Entity, Ref<SheaveAlong>), Allow<Disabled>>) {
     let asked: Vec<_> = asked.iter(world).map(|(entity, sheave)| (entity, *sheave, sheave.is_changed())).collect();
     for (entity, sheave, is_changed) in asked {
-        let changed = |cable: Entity| {
-            let own = world.get_entity(cable).ok().and_then(|cable| cable.get_ref::<Cable>());
-            own.is_some_and(|own| world.resource::<Pending>().has_changed(cable, Watched::Cable, &own))
-        };
         let body = |body: Entity| {
             world.get_entity(body).is_ok_and(|body| body.get_ref::<BodyHandle>().is_some_and(|own| own.is_changed()))
         };
-        if (is_changed || changed(sheave.cable.0) || sheave.body.is_some_and(body))
+        if (is_changed || has_cable_changed(world, sheave.cable.0) || sheave.body.is_some_and(body))
             && let Err(error) = make(world, entity, sheave)
         {
             world.resource_mut::<Cables>().events.push(SheaveFailed { entity, error }.into());

@@ -1,19 +1,13 @@
 //! Snapshots as bytes: MessagePack under a [seal](lariat_ancf::seal), and what of a snapshot is
 //! checked before it is taken for one.
 
-use super::{Saved, Snapshot, shared};
-use crate::clock::FixedClock;
+use super::Snapshot;
 use crate::error::Error;
-use crate::links::Links;
-use crate::pending::Pending;
-use crate::water::Sea;
 use bevy_ecs::entity::Entity;
 use lariat_ancf::seal::{seal, unseal};
-use lariat_rapier::CableSet;
-use lariat_rapier::rapier::pipeline::PhysicsWorld;
-use serde::{Deserialize, Deserializer};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// What the seal says that it is around.
 const KIND: &str = "bevy snapshot";
@@ -56,27 +50,17 @@ impl Snapshot {
     }
 }
 
-impl<'de> Deserialize<'de> for Snapshot {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Parts { physics, set, links, pending, clock, sea, entities } = Parts::deserialize(deserializer)?;
-        let snapshot = Snapshot { physics, set, links, pending, clock, sea, entities, origin: None };
-        match snapshot.contradiction() {
-            Some(contradiction) => Err(serde::de::Error::custom(contradiction)),
-            None => Ok(snapshot),
-        }
+impl Serialize for Snapshot {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // the function that is derived
+        Snapshot::serialize(self, serializer)
     }
 }
 
-/// A snapshot before its check.
-#[derive(Deserialize)]
-#[serde(rename = "Snapshot")]
-struct Parts {
-    #[serde(with = "shared")]
-    physics: Arc<PhysicsWorld>,
-    set: CableSet,
-    links: Links,
-    pending: Pending,
-    clock: FixedClock,
-    sea: Option<(Sea, bool)>,
-    entities: Vec<Saved>,
+impl<'de> Deserialize<'de> for Snapshot {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        // the function that is derived, which checks nothing
+        let snapshot = Snapshot::deserialize(deserializer)?;
+        snapshot.contradiction().map_or(Ok(snapshot), |wrong| Err(D::Error::custom(wrong)))
+    }
 }

@@ -38,7 +38,7 @@ use entity::Saved;
 use lariat_rapier::CableSet;
 use lariat_rapier::rapier::pipeline::{CollisionPipeline, PhysicsPipeline, PhysicsWorld};
 use names::Names;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -82,7 +82,8 @@ use std::sync::Arc;
 ///   are [added](lariat_ancf::Cable::add_force_density) again.
 /// - Events that were not sent yet are lost, and the counters of [`Diagnostics`](crate::Diagnostics) go on
 ///   from those of the world.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct Snapshot {
     #[serde(with = "shared")]
     physics: Arc<PhysicsWorld>,

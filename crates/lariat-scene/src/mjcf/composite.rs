@@ -108,7 +108,7 @@ impl Importer {
                 mass * segments
             }
             (None, density) if density > 0.0 => {
-                density * chords.iter().map(|l| section.area * l + section.ends).sum::<f64>()
+                density * chords.iter().map(|length| section.volume(*length)).sum::<f64>()
             }
             _ => return Err(geom.wrong("needs a mass or a density > 0")),
         };
@@ -200,6 +200,11 @@ impl Importer {
 }
 
 impl Section {
+    /// Returns the volume in m^3 of a segment of a length in m.
+    fn volume(&self, length: f64) -> f64 {
+        self.area * length + self.ends
+    }
+
     /// Returns the sides in m of the box that has the mass and the moments of inertia of a segment of a length in m, along and across it:
     /// `6 (I_y + I_z - I_x)/m` and so on are their squares.
     fn inertia_box(&self, segment: f64) -> [f64; 2] {
@@ -286,7 +291,7 @@ pub(super) fn first_segment(node: &Element) -> Result<Option<[f64; 2]>, Error> {
     let (Some(geom), Some("none")) = (node.named("geom").next(), node.attribute("initial")) else { return Ok(None) };
     let vertices = vertices_of(node)?;
     let (length, section) = ((vertices[1] - vertices[0]).norm(), section(geom)?);
-    let by_density = geom.number("density")?.unwrap_or(1000.0) * (section.area * length + section.ends);
+    let by_density = geom.number("density")?.unwrap_or(1000.0) * section.volume(length);
     let mass = geom.number("mass")?.unwrap_or(by_density);
     Ok((mass > 0.0).then_some([mass, length]))
 }

@@ -284,16 +284,12 @@ fn radius(body: &BodyScene) -> f64 {
 fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
     let (name, length) = (&cable.name, cable.length);
     let drawn = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
-    let damping = cable.effects.damping.as_ref().and_then(|damping| sizes::damping(name, damping));
     let element = cable.grading.as_ref().map_or(length / cable.elements as f64, |grading| grading.finest);
     let of_section = move |(_, section): &(f64, Section)| -> Vec<_> {
         sizes::warnings(name, section, length).chain(sizes::elements(name, section, length, element)).collect()
     };
-    let stiffness = cable.sections.iter().map(|(_, section)| section.axial_stiffness).fold(0.0, f64::max);
-    let drag = cable.effects.drag.iter().flat_map(move |drag| sizes::drag(name, drag));
-    let curve = cable.effects.axial_law.as_ref().and_then(|law| sizes::curve(name, law, stiffness));
-    let shapes = cable.sections.iter().flat_map(of_section).chain(damping).chain(sizes::slack(name, length, drawn));
-    shapes.chain(drag).chain(curve)
+    let of_effects = sizes::of_effects(name, &cable.effects, cable.sections.first().axial_stiffness);
+    cable.sections.iter().flat_map(of_section).chain(of_effects).chain(sizes::slack(name, length, drawn))
 }
 
 /// Returns the warning about a radius of contact in another unit.
