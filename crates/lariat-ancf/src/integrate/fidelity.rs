@@ -34,7 +34,7 @@ pub enum Fidelity {
     /// | scene | elements | error m | CPU ms |
     /// |---|---:|---:|---:|
     /// | pendulum | 10 | 2.6e-3 | 2.32 |
-    /// | payload | 10 | 8.8e-3 | 3.08 |
+    /// | payload | 10 | 8.9e-3 | 5.03 |
     /// | taut steel | 10 | 1.9e-4 | 0.107 |
     Game,
     /// Error-controlled ESDIRK4, 1e-6 m per host step of the motion: the default. With contact,
