@@ -64,6 +64,11 @@ pub struct Diagnostics {
     /// a 64th of the host step, with an estimated error above the tolerance.
     #[serde(default)]
     pub unresolved_steps: u64,
+    /// Steps of the discrete gradient that were accepted although their iteration had not come to
+    /// its end: the energy law holds, but forces of contacts are not those of their law, or bodies
+    /// have not the momentum that forces give them. Counted by the first cable of an island.
+    #[serde(default)]
+    pub unsolved_steps: u64,
     /// Host steps whose accuracy was reduced because a [limit](crate::integrate::WorkLimit) to the
     /// work was reached.
     #[serde(default)]
@@ -95,7 +100,7 @@ macro_rules! by_field {
         by_field!(@ $a, $b, $op, $rest; host_steps, steps, rejected_steps, newton_iterations, factorisations,
             indefinite_factorisations, solves, mass_solves, force_evaluations, tangent_evaluations, bending_evaluations,
             load_evaluations, load_readings, search_tests, rescaled_steps, split_steps, crossed_steps, touching_steps, lagging_steps,
-            unresolved_steps, cut_steps, twist_slips, warnings)
+            unresolved_steps, unsolved_steps, cut_steps, twist_slips, warnings)
     };
     (@ $a:expr, $b:expr, $op:expr, $rest:expr; $($field:ident),*) => {
         Diagnostics { $($field: $op($a.$field, $b.$field),)* ..$rest }

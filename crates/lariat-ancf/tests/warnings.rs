@@ -365,6 +365,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::Facets { cable: cable(), time_s, slid_m: 1.0 },
         Warning::NotResolved { cable: cable(), steps },
         Warning::CutShort { cable: cable(), steps },
+        Warning::UnsolvedSteps { cable: cable(), steps, hidden_j: 1.0 },
         Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },
         Warning::CoarseContact { cable: cable(), arc_length_m: 0.5, turn_rad: 1.0, enough },
         Warning::HighRestitution { cable: cable(), restitution: 1.0 },

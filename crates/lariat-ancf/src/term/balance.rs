@@ -22,6 +22,8 @@ pub(crate) struct Balance {
     pub numerical: f64,
     /// Energy taken from velocities.
     pub rescaled: f64,
+    /// Energy that contacts did not take, as the step is not solved.
+    pub hidden: f64,
     /// Kinetic and strain energy and that of contacts at the beginning, and the weight times 1 mm;
     /// bending by rule T1, whose forms the method's own dissipation has.
     pub held: f64,
@@ -56,6 +58,7 @@ impl Balance {
         self.residual += other.residual;
         self.numerical += other.numerical;
         self.rescaled += other.rescaled;
+        self.hidden += other.hidden;
         self.held += other.held;
         self.weight += other.weight;
         self.imbalance += other.imbalance;
@@ -84,6 +87,15 @@ impl Balance {
     /// Returns the energy that the step makes.
     pub fn excess(&self) -> f64 {
         self.residual - self.losses() - self.rescaled
+    }
+
+    /// Takes from the losses of contacts what the residual of a step that is not solved hides of
+    /// them: the energy that they did not take.
+    pub fn take_hidden(&mut self) {
+        let hidden = (self.residual - self.rescaled).clamp(0.0, self.of(Account::Contacts).loss.max(0.0));
+        self.residual -= hidden;
+        self.to(Account::Contacts).loss -= hidden;
+        self.hidden += hidden;
     }
 
     /// Returns the energy that is to be taken from velocities: what the step makes, and where all

@@ -31,6 +31,9 @@ pub struct EnergyLaw {
     pub bodies: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,
+    /// Energy that contacts would have lost by their laws beside that, in steps that were
+    /// [not solved](crate::Diagnostics::unsolved_steps). Never falls.
+    pub unsolved: f64,
     /// Energy that the friction of sheaves took. Never falls.
     pub sheaves: f64,
     /// Energy that the inelastic impacts lost by which pinned nodes and their bodies begin a step
@@ -68,6 +71,7 @@ impl EnergyLaw {
         self.loads += loads.work;
         self.bodies += loads.aside;
         self.contacts += contacts.loss + contacts.aside;
+        self.unsolved += step.hidden;
         self.sheaves += reels.aside;
         self.obstacles += contacts.work;
         self.residual += step.residual;
@@ -83,6 +87,7 @@ impl EnergyLaw {
         self.loads += other.loads;
         self.bodies += other.bodies;
         self.contacts += other.contacts;
+        self.unsolved += other.unsolved;
         self.sheaves += other.sheaves;
         self.impacts += other.impacts;
         self.uncertain += other.uncertain;
@@ -92,12 +97,12 @@ impl EnergyLaw {
     }
 
     /// The terms, to check them.
-    pub(crate) fn terms(&self) -> [f64; 13] {
+    pub(crate) fn terms(&self) -> [f64; 14] {
         let EnergyLaw { numerical, rescaled, shortened, supports, loads, bodies, contacts, .. } = *self;
-        let EnergyLaw { sheaves, impacts, uncertain, obstacles, residual, made, .. } = *self;
+        let EnergyLaw { unsolved, sheaves, impacts, uncertain, obstacles, residual, made, .. } = *self;
         [
-            numerical, rescaled, shortened, supports, loads, bodies, contacts, sheaves, impacts, uncertain, obstacles,
-            residual, made,
+            numerical, rescaled, shortened, supports, loads, bodies, contacts, unsolved, sheaves, impacts, uncertain,
+            obstacles, residual, made,
         ]
     }
 }

@@ -37,6 +37,7 @@ impl Warning {
             | Warning::FrictionLags { .. }
             | Warning::RunsOver { .. }
             | Warning::CutShort { .. }
+            | Warning::UnsolvedSteps { .. }
             | Warning::Facets { .. }
             | Warning::TwistSlips { .. }
             | Warning::KinksThroughItself { .. } => Level::Wrong,
@@ -92,6 +93,7 @@ impl Warning {
             | Warning::DeadCables { cable, .. }
             | Warning::RunsOver { cable, .. }
             | Warning::CutShort { cable, .. }
+            | Warning::UnsolvedSteps { cable, .. }
             | Warning::IdleTorsion { cable, .. }
             | Warning::CoarseTwist { cable, .. }
             | Warning::TwistSlips { cable, .. }
@@ -153,6 +155,7 @@ impl Judged for Warning {
             | Warning::BreaksAgain { .. }
             | Warning::FastFlow { .. }
             | Warning::FrictionLags { .. }
+            | Warning::UnsolvedSteps { .. }
             | Warning::Facets { .. }
             | Warning::RoundedEnds { .. } => return None,
         })
@@ -208,6 +211,7 @@ impl Judged for Warning {
             Warning::PassedThrough { steps, .. }
             | Warning::NotResolved { steps, .. }
             | Warning::CutShort { steps, .. }
+            | Warning::UnsolvedSteps { steps, .. }
             | Warning::FrictionLags { steps, .. } => *steps as f64,
             Warning::TwistSlips { slips, .. } => *slips as f64,
             Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,

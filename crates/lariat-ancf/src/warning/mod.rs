@@ -367,6 +367,19 @@ pub enum Warning {
         /// Number of such steps.
         steps: u64,
     },
+    /// Steps were accepted that are not solved.
+    #[error(
+        "cable {cable:?}: in {steps} steps of it, and of what moves with it, the iteration did not come to its end, however short they were: forces of contacts were not those of \
+         their laws there, and took {hidden_j:.1e} J less than these say; no energy is made; try shorter host steps, more elements, or contact that is less stiff"
+    )]
+    UnsolvedSteps {
+        /// Name of the cable.
+        cable: String,
+        /// Number of steps.
+        steps: u64,
+        /// Energy in J that contacts did not take.
+        hidden_j: f64,
+    },
     /// A limit to the work cut steps short.
     #[error(
         "cable {cable:?}: in {steps} steps the limit to the work was reached: forces and motion have errors without a bound there, though no energy is made; try \

@@ -27,7 +27,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 29] = [
+const LAWS: [(Law, bool); 30] = [
     (|watch, cable, _| watch.contacts.starts_inside(cable), true),
     (Watch::strain, true),
     (Watch::mesh, true),
@@ -45,6 +45,7 @@ const LAWS: [(Law, bool); 29] = [
     (|_, cable, _| breaks_again(cable), true),
     (|_, cable, _| unresolved(cable), true),
     (|_, cable, _| cut_short(cable), true),
+    (|_, cable, _| unsolved(cable), true),
     (Watch::twist, true),
     (Watch::kinks, true),
     (Watch::moment_along, true),
@@ -250,6 +251,13 @@ fn unresolved(cable: &Cable) -> Option<Warning> {
 fn cut_short(cable: &Cable) -> Option<Warning> {
     let steps = cable.diagnostics().cut_steps;
     (steps > 0).then(|| Warning::CutShort { cable: cable.name().to_string(), steps })
+}
+
+/// Whether steps were accepted whose iteration had not come to its end.
+fn unsolved(cable: &Cable) -> Option<Warning> {
+    let steps = cable.diagnostics().unsolved_steps;
+    let hidden_j = cable.energy_law().unsolved;
+    (steps > 0).then(|| Warning::UnsolvedSteps { cable: cable.name().to_string(), steps, hidden_j })
 }
 
 /// Whether the load may have exceeded its limit between two integration steps.

@@ -7,6 +7,7 @@ mod mesh;
 mod shipped;
 mod through;
 mod units;
+mod unsolved;
 
 use lariat_ancf::Level;
 use lariat_scene::run::{self, Options, Summary};

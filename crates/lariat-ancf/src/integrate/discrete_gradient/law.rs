@@ -88,6 +88,8 @@ pub(crate) trait DiscreteGradientSystem {
 pub(crate) enum Event {
     /// Another iteration was taken.
     Iterated(Reason),
+    /// A step was accepted that is not solved: a division could go no further.
+    Unsolved,
     /// Velocities were scaled down.
     Rescaled,
     /// The step was divided.

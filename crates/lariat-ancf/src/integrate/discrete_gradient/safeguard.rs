@@ -19,7 +19,9 @@
 //! term with corners in its law acts (nonsmooth, most often contact), it must close to 1 % of all
 //! that the step loses; every iteration has a new tangent, up to 20 are taken, and those that swing
 //! by halves (relaxation.rs). After those the balance alone must close, and bodies must have the
-//! momentum that their forces give; in the last division the energy law alone must hold.
+//! momentum that their forces give; in the last division the energy law alone must hold. A step
+//! that is accepted so, or by rescaling, without that is *not solved*: it is counted, and its
+//! contacts are said to have lost what the energy lost, not what their laws say.
 //!
 //! # Verdicts
 //!
@@ -131,7 +133,8 @@ fn is_dissipation_right(balance: &Balance) -> bool {
 fn closes(balance: &Balance) -> bool {
     let tolerance = balance.tolerance();
     if balance.nonsmooth {
-        balance.residual <= CLOSURE * balance.losses() + tolerance.max(CLOSURE_OF_WEIGHT * balance.weight)
+        let left = balance.residual - balance.rescaled;
+        left <= CLOSURE * balance.losses() + tolerance.max(CLOSURE_OF_WEIGHT * balance.weight)
     } else {
         balance.surplus() <= tolerance
     }
@@ -243,10 +246,11 @@ fn iterate<S: DiscreteGradientSystem>(system: &mut S, demand: &Demand<'_>) -> Re
 }
 
 /// Makes the end of the step of `h` (s) the present state, if its error is not too large; divides
-/// it where a term finds something there that shorter steps do not leave.
+/// it where a term finds something there that shorter steps do not leave. What is not solved is
+/// counted, and what its residual hides is not among the losses of contacts.
 fn accept<S: DiscreteGradientSystem>(
     system: &mut S,
-    mut balance: Balance,
+    (mut balance, solved): (Balance, bool),
     (h, depth): (f64, usize),
     demand: &Demand<'_>,
 ) -> Result<Advanced, StepFailure> {
@@ -263,6 +267,10 @@ fn accept<S: DiscreteGradientSystem>(
     let may_divide = depth < MAX_DEPTH_OF_ENDS && !demand.limit.is_some_and(WorkLimit::is_spent);
     if let Some(reason) = verdict.reason().filter(|_| may_divide) {
         return divide(system, h, (depth, reason), demand);
+    }
+    if !solved {
+        balance.take_hidden();
+        system.count(Event::Unsolved);
     }
     system.accept(balance);
     demand.limit.into_iter().for_each(WorkLimit::note_progress);
@@ -304,7 +312,7 @@ pub(super) fn step<S: DiscreteGradientSystem>(
         };
         let kept = keeps_law(&balance);
         if may_end && kept && (law == Verdict::Accept || shortest) {
-            return accept(system, balance, (h, depth), demand);
+            return accept(system, (balance, law == Verdict::Accept), (h, depth), demand);
         }
         let may_rescale = || {
             let right = is_almost_solved(&balance) && system.verdict(&balance, Stage::Rescaling) == Verdict::Accept;
@@ -314,10 +322,11 @@ pub(super) fn step<S: DiscreteGradientSystem>(
         let largest_share = if reduced { 1.0 } else { SHARE_OF_HALF_THE_ENERGY };
         if may_rescale && system.rescale(&mut balance, largest_share) {
             system.count(Event::Rescaled);
-            return accept(system, balance, (h, depth), demand);
+            let solved = closes(&balance) && are_bodies_balanced(&balance);
+            return accept(system, (balance, solved), (h, depth), demand);
         }
         if reduced && kept {
-            return accept(system, balance, (h, depth), demand);
+            return accept(system, (balance, law == Verdict::Accept), (h, depth), demand);
         }
         reason = law.reason().or(found.reason()).unwrap_or(reason);
     }
