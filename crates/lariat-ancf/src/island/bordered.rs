@@ -157,11 +157,15 @@ impl Bordered {
         self.sparse.block(body, body).add(3, 3, block);
     }
 
+    /// Returns what the coordinates of a cable in the border follow, to be set before it is added
+    /// or reduced.
+    pub fn levers(&mut self, cable: usize) -> &mut Vec<Lever> {
+        &mut self.cables[cable].levers
+    }
+
     /// Adds a condensed cable, to the blocks on and below the diagonal.
-    pub fn add_cable(&mut self, cable: usize, levers: impl Iterator<Item = Lever>) {
+    pub fn add_cable(&mut self, cable: usize) {
         let Beside { condensed, levers: list, .. } = &mut self.cables[cable];
-        list.clear();
-        list.extend(levers);
         condensed.w.for_each(|[a, b], block| {
             let (one, other) = (&list[a], &list[b]);
             if other.body <= one.body {
@@ -192,15 +196,12 @@ impl Bordered {
         &mut self,
         cable: usize,
         (level, factors): (Level, &Factorisation),
-        levers: impl Iterator<Item = Lever>,
         rhs: &mut [f64],
         rows: &mut [f64],
     ) {
-        let Beside { condensed, levers: list, values } = &mut self.cables[cable];
-        list.clear();
-        list.extend(levers);
+        let Beside { condensed, levers, values } = &mut self.cables[cable];
         condensed.reduce(level, factors, rhs, values);
-        for (lever, reduced) in list.iter().zip(values.chunks_exact(3)) {
+        for (lever, reduced) in levers.iter().zip(values.chunks_exact(3)) {
             lever.pass(&-vector(reduced), rows);
         }
     }
@@ -341,7 +342,8 @@ mod tests {
                 let columns = Columns { strand: c, pairs: &pairs, own: &own[c], ..Columns::default() };
                 bordered.cable(c).read(&matrices[c], &[], &[]);
                 bordered.cable(c).complete(level, &factors[c], columns, |_, _| {});
-                bordered.add_cable(c, levers(c));
+                bordered.levers(c).extend(levers(c));
+                bordered.add_cable(c);
             }
             bordered.factor().unwrap();
             assert!(bordered.negative() > 0);
@@ -350,7 +352,7 @@ mod tests {
             let mut rows = vec![0.0; bordered.rows()];
             let (first, second) = x.split_at_mut(42);
             for (c, part) in [(0, &mut *first), (1, &mut *second)] {
-                bordered.reduce(c, (level, &factors[c]), levers(c), part, &mut rows);
+                bordered.reduce(c, (level, &factors[c]), part, &mut rows);
             }
             bordered.solve(&mut rows);
             for (c, part) in [(0, first), (1, second)] {

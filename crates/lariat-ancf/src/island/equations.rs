@@ -237,7 +237,8 @@ impl IslandEquations<'_, '_> {
                     matrix.add_rotational(layout.pins[hold.pin].body, &((geometric + geometric.transpose()) * 0.5));
                 }
             }
-            matrix.add_cable(c, levers(layout, part, q));
+            set_levers(matrix.levers(c), layout, part, q);
+            matrix.add_cable(c);
         }
         for (i, body) in layout.bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -292,7 +293,8 @@ impl IslandEquations<'_, '_> {
             cuts::take(&part.cuts, own, &mut rows[6 * (layout.bodies.len() + part.cut_at)..]);
             project_vector(&cable.model, own);
             let factors = (cable.system.level, buffers.factors(kind, &cable.system.step.factorisation));
-            matrix.reduce(c, factors, levers(layout, part, q), own, rows);
+            set_levers(matrix.levers(c), layout, part, q);
+            matrix.reduce(c, factors, own, rows);
             cable.diagnostics_mut().solves += 1;
         }
         for (body, six) in layout.bodies.iter().zip(rows.chunks_exact_mut(6)) {
@@ -347,12 +349,14 @@ impl IslandEquations<'_, '_> {
     }
 }
 
-/// Returns what the coordinates of a cable in the border follow at coordinates `q`: those that are
+/// Sets what the coordinates of a cable in the border follow at coordinates `q`: those that are
 /// held, and slopes of cuts.
-fn levers(layout: &Layout, part: &Part, q: &[f64]) -> impl Iterator<Item = Lever> {
+fn set_levers(levers: &mut Vec<Lever>, layout: &Layout, part: &Part, q: &[f64]) {
     let lever = |hold: &Hold| Lever::held(layout.pins[hold.pin].body, &layout.rotating_vector(hold, q), hold.slope);
     let first = layout.bodies.len() + part.cut_at;
-    part.holds.iter().map(lever).chain((0..part.cuts.len()).map(move |cut| Lever::of_own(first, cut)))
+    levers.clear();
+    levers.extend(part.holds.iter().map(lever));
+    levers.extend((0..part.cuts.len()).map(|cut| Lever::of_own(first, cut)));
 }
 
 /// Sets the directions of a cable's clamps at coordinates `q` of the island in its supports, and

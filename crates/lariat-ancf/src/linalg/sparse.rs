@@ -86,7 +86,7 @@ impl SparseSymmetric {
         self.places.clear();
         self.locked.clear();
         self.locked.resize(count, [false; 6]);
-        self.any_locked = false;
+        (self.any_locked, self.is_dense) = (false, false);
         self.signs.clear();
         self.signs.resize(count, 1.0);
     }
@@ -130,6 +130,9 @@ impl SparseSymmetric {
     /// # Errors
     /// If it is singular or not finite.
     pub fn factor(&mut self) -> Result<(), SingularMatrix> {
+        if self.count == 0 {
+            return Ok(());
+        }
         for block in 0..self.count {
             self.block(block, block);
         }
@@ -200,6 +203,9 @@ impl SparseSymmetric {
 
     /// Solves in place.
     pub fn solve(&mut self, rhs: &mut [f64]) {
+        if self.count == 0 {
+            return;
+        }
         if self.is_dense {
             return self.dense.solve(rhs);
         }

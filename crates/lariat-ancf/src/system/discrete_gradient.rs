@@ -97,9 +97,8 @@ impl Equations<'_> {
         }
         let StepVectors { h, velocity_change, rhs, external, product, .. } = b;
         self.system.mass.multiply(self.system.level, velocity_change, product);
-        for i in 0..rhs.len() {
-            rhs[i] += *h * external[i] - product[i];
-        }
+        let others = external.iter().zip(&*product);
+        rhs.iter_mut().zip(others).for_each(|(rhs, (force, momentum))| *rhs += *h * force - momentum);
         rhs.iter_mut().zip(&b.pair_impulses).for_each(|(rhs, impulse)| *rhs += impulse);
         if !matrix {
             rhs.iter_mut().zip(&b.term_impulses).for_each(|(rhs, impulse)| *rhs += impulse);
@@ -224,9 +223,8 @@ impl Equations<'_> {
             }
         }
         // the forces are used up
-        for i in 0..external.len() {
-            external[i] = velocity_change[i] - velocity_before[i];
-        }
+        let changes = velocity_change.iter().zip(&*velocity_before);
+        external.iter_mut().zip(changes).for_each(|(out, (now, before))| *out = now - before);
         balance.numerical += 0.5 * leg.a * system.mass_square(external, product);
         let kinetic = 0.5 * system.mass_square(&state.v, product);
         balance.held += kinetic + loss.strain + system.scales.weight_energy;
@@ -238,11 +236,10 @@ impl Equations<'_> {
     /// the one about which it was linearised.
     pub fn apply_increment(b: &mut StepVectors, share: f64) {
         b.linearised.clone_from(&b.change);
-        for i in 0..b.rhs.len() {
-            let increment = share * b.rhs[i];
-            b.velocity_change[i] += increment;
-            b.change[i] += b.h * b.leg.b * increment;
-        }
+        let StepVectors { rhs, velocity_change, change, h, leg, .. } = b;
+        let (rhs, moved) = (&*rhs, *h * leg.b);
+        velocity_change.iter_mut().zip(rhs).for_each(|(change, increment)| *change += share * increment);
+        change.iter_mut().zip(rhs).for_each(|(change, increment)| *change += moved * (share * increment));
     }
 
     /// Computes coordinates and velocities of the end of the step of a cable whose ends are fixed
@@ -262,10 +259,8 @@ impl Equations<'_> {
     /// Makes the end of the step the state.
     pub fn accept_step(&mut self, state: &mut State, b: &StepVectors) {
         self.end_feeds_of_step(state, b);
-        for i in 0..b.change.len() {
-            state.q[i] += b.change[i];
-            state.v[i] += b.velocity_change[i];
-        }
+        state.q.iter_mut().zip(&b.change).for_each(|(q, change)| *q += change);
+        state.v.iter_mut().zip(&b.velocity_change).for_each(|(v, change)| *v += change);
         state.v.iter_mut().zip(&b.taken).for_each(|(v, taken)| *v -= taken);
         state.v.iter_mut().zip(&b.landed).for_each(|(v, landed)| *v -= landed);
         state.time += b.h;

@@ -101,14 +101,15 @@ impl Bridge {
         factors.factor(level, &matrix).unwrap();
         let columns = Columns { held: &held, cuts, touched: &self.touched, ..Columns::default() };
         bordered.cable(0).complete(level, &factors, columns, project);
-        bordered.add_cable(0, levers().into_iter());
+        bordered.levers(0).extend(levers());
+        bordered.add_cable(0);
         bordered.factor().unwrap();
         assert_eq!(bordered.negative(), 0);
         let (mut x, mut rows) = (self.rhs.clone(), vec![0.0; bordered.rows()]);
         rows[..6 * bodies].iter_mut().enumerate().for_each(|(i, row)| *row = (i as f64).sin());
         take(cuts, &mut x, &mut rows[6 * bodies..]);
         project(0, &mut x);
-        bordered.reduce(0, (level, &factors), levers().into_iter(), &mut x, &mut rows);
+        bordered.reduce(0, (level, &factors), &mut x, &mut rows);
         bordered.solve(&mut rows);
         let moved = bordered.expand(0, (level, &factors), &mut x, &rows).to_vec();
         give(cuts, &moved[3 * self.pinned.len()..], &mut x);

@@ -63,7 +63,8 @@ impl IslandStep<'_, '_> {
                 matrix.add_rotational(hold.body, &(hold.stiffening() * (0.5 * leg.b * h)));
             }
             let borders = cable.step_buffers.contact.borders();
-            matrix.add_cable(c, levers(own, (part, self.layout.cut_blocks), borders, bodies.len()));
+            set_levers(matrix.levers(c), own, (part, self.layout.cut_blocks), borders, bodies.len());
+            matrix.add_cable(c);
         }
         for (i, body) in bodies.iter().enumerate() {
             matrix.lock(i, &body.free);
@@ -90,8 +91,8 @@ impl IslandStep<'_, '_> {
             cuts::take(&part.cuts, rhs, &mut rows[6 * (bodies.len() + part.cut_at)..]);
             project_vector(equations.model, rhs);
             let factors = (equations.system.level, &equations.system.step.factorisation);
-            let levers = levers(own, (part, layout.cut_blocks), contact.borders(), bodies.len());
-            matrix.reduce(c, factors, levers, rhs, rows);
+            set_levers(matrix.levers(c), own, (part, layout.cut_blocks), contact.borders(), bodies.len());
+            matrix.reduce(c, factors, rhs, rows);
         }
         for (body, row) in bodies.iter().zip(rows.chunks_exact_mut(6)) {
             body.lock(row);
@@ -135,18 +136,19 @@ impl IslandStep<'_, '_> {
     }
 }
 
-/// Returns what the coordinates of a cable in the border follow: those that are held, slopes of
-/// cuts, of which all cables have a number of blocks, bodies that it touches, and the forces of its
+/// Sets what the coordinates of a cable in the border follow: those that are held, slopes of cuts,
+/// of which all cables have a number of blocks, bodies that it touches, and the forces of its
 /// contacts with cables.
-fn levers<'a>(
-    own: &'a CableBuffers,
-    (part, cut_blocks): (&'a Part, usize),
-    touched: &'a [Border],
+fn set_levers(
+    levers: &mut Vec<Lever>,
+    own: &CableBuffers,
+    (part, cut_blocks): (&Part, usize),
+    touched: &[Border],
     bodies: usize,
-) -> impl Iterator<Item = Lever> + 'a {
-    let held = own.holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope));
-    let cuts = (0..part.cuts.len()).map(move |cut| Lever::of_own(bodies + part.cut_at, cut));
-    let touched = touched.iter().flat_map(|border| Lever::own(border.body));
-    let contacts = own.pairs.iter().map(move |&pair| Lever::of_own(bodies + cut_blocks, pair));
-    held.chain(cuts).chain(touched).chain(contacts)
+) {
+    levers.clear();
+    levers.extend(own.holds.iter().map(|hold| Lever::held(hold.body, &hold.arm, hold.slope)));
+    levers.extend((0..part.cuts.len()).map(|cut| Lever::of_own(bodies + part.cut_at, cut)));
+    levers.extend(touched.iter().flat_map(|border| Lever::own(border.body)));
+    levers.extend(own.pairs.iter().map(|&pair| Lever::of_own(bodies + cut_blocks, pair)));
 }
