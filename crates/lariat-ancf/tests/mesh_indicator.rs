@@ -188,9 +188,11 @@ fn in_statics_the_indicator_is_between_a_quarter_and_four_times_the_error() {
     assert!(outside.is_empty(), "{outside:?}");
 }
 
+/// The tension is read by equilibrium, and is right to a hundredth of what the strain jumps by at the nodes.
+///
 /// *Source.* The same cable with 160 elements.
 #[test]
-fn the_jump_of_the_tension_bounds_the_error_of_the_averaged_one() {
+fn the_jump_of_the_strain_bounds_the_error_of_the_tension() {
     let build = |n| {
         let bent = rod(1e6, 1.0, n).clamp(At::Start).load(PointLoad::force(1.0, [0.0, -10.0, 0.0]));
         let mut cable = bent.build().unwrap();
@@ -205,7 +207,7 @@ fn the_jump_of_the_tension_bounds_the_error_of_the_averaged_one() {
             .map(|i| f64::from(i) / 200.0 + 1e-6)
             .fold(0.0, |worst: f64, s| worst.max((tension(&coarse, s) - tension(&fine, s)).abs()));
         let jump = coarse.tension_jump().unwrap();
-        println!("{elements} elements: tension off by {error:.3} N, jump {jump:.3} N");
-        assert!((0.02..=1.0).contains(&(error / jump)), "{elements}: {error} N, jump {jump} N");
+        println!("{elements} elements: tension off by {error:.1e} N, jump {jump:.3} N");
+        assert!(error <= 0.01 * jump, "{elements}: {error} N, jump {jump} N");
     }
 }

@@ -9,7 +9,12 @@
 //! about the binormal; the curvature is read raw. A rest shape and damping change both: `N = EA
 //! (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 //!
-//! At the nodes between elements N jumps by its error, which is of first order under bending,
+//! What a force along the tangent is, the equilibrium of the nodes says better than the strain
+//! (`system/carried.rs`): the force is read at both nodes of an element, is linear between them,
+//! and its part along the tangent is the tension. EA eps f is read where something touches or pulls
+//! the element between its nodes, at the eyes of reels, with torsion, and with contact between cables.
+//!
+//! There N jumps at the nodes between elements by its error, which is of first order under bending,
 //! antisymmetric about the middle of each element, and in proportion to the element's length. The
 //! tension that is read is averaged there, with weights that make this error vanish, `(h_2 N_1 +
 //! h_1 N_2)/(h_1 + h_2)`, and what is added to reach the averages is quadratic in the element and
@@ -56,9 +61,10 @@ pub struct Sample {
     pub slope: Vector3<f64>,
     /// Green strain (r'.r' - 1)/2, projected on linear functions inside the element.
     pub green_strain: f64,
-    /// Tension in N, the force along the tangent: `EA eps f - M kappa`, averaged at nodes, and by
-    /// equilibrium at those that are held, loaded or ends, where both sides differ on the side of
-    /// smaller arc lengths; negative = compression.
+    /// Tension in N, the force along the tangent, by the equilibrium of the nodes; at one that is held
+    /// or loaded, where both sides differ, on the side of smaller arc lengths. Where an element is
+    /// touched or pulled between its nodes, and with torsion or contact between cables, `EA eps f -
+    /// M kappa`, averaged at nodes. Negative = compression.
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,
@@ -67,9 +73,9 @@ pub struct Sample {
     /// held, and free to turn, has elements longer than what bends there. Where |r'| < 1/2, the
     /// continued power of the bending rule.
     pub moment: Vector3<f64>,
-    /// Uncertainty of the tension in N: the larger of its jumps at the nodes of the element before
-    /// averaging; at a node that equilibrium judges, what the strain misses; all of the tension
-    /// where nothing can judge.
+    /// Uncertainty of the tension in N: what the strain misses to that of equilibrium; where the
+    /// strain is read, the larger of its jumps at the nodes of the element before averaging; all of
+    /// the tension where nothing can judge.
     pub tension_uncertainty: f64,
 }
 
@@ -102,15 +108,36 @@ impl Cable {
             let tension = carried[k].tension;
             return Sample { tension, tension_uncertainty: (tension - raw.tension).abs(), moment, ..raw };
         }
+        let strained = raw.tension + self.pull_of_bending(&moment, &raw.curvature);
+        if let Some((force, tangent)) = self.force_in(e, xi, carried).zip(raw.slope.try_normalize(0.0)) {
+            let tension = force.dot(&tangent);
+            return Sample { tension, tension_uncertainty: (tension - strained).abs(), moment, ..raw };
+        }
         let (from, to) = (self.node_tension(e), self.node_tension(e + 1));
         let jumps = from.into_iter().chain(to).map(|node| node.jump);
-        let strained = raw.tension + self.pull_of_bending(&moment, &raw.curvature);
         let Some(tension_uncertainty) = jumps.reduce(f64::max) else {
             return Sample { tension: strained, moment, ..raw };
         };
         let [start, end] = missing_at_ends(from, to);
         let missing = (1.0 - xi) * (1.0 - 2.0 * xi) * start + xi * (2.0 * xi - 1.0) * end;
         Sample { tension: strained + missing, tension_uncertainty, moment, ..raw }
+    }
+
+    /// Returns the force in N at a local coordinate of an element by the equilibrium of its nodes,
+    /// which is linear between them; `None` where it is not known.
+    fn force_in(&self, e: usize, xi: f64, carried: Option<[Carried; 2]>) -> Option<Vector3<f64>> {
+        let (reading, contacts) = (self.reading(), &self.snapshot.state.memory.contacts[..]);
+        if !reading.is_evenly_loaded(e, contacts) {
+            return None;
+        }
+        let at = |k: usize| {
+            let (node, s) = (e + k, self.arc_length_of(e + k));
+            match self.is_read_by_equilibrium(node, s) {
+                true => carried.map(|carried| carried[k].force),
+                false => reading.force_at_node(node, s, contacts),
+            }
+        };
+        Some(at(0)? * (1.0 - xi) + at(1)? * xi)
     }
 
     /// Returns by how much the force in N along the tangent is more than EA eps f, by the moment in

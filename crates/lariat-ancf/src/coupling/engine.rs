@@ -7,6 +7,7 @@ use crate::effect::Effects;
 use crate::error::Error;
 use crate::integrate::{Fidelity, Integrator};
 use crate::rule::Rule;
+use crate::state::SegmentTwist;
 use crate::strength::{Break, Load};
 use crate::warning::{IslandChange, Warning};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -139,6 +140,13 @@ pub trait Coupling {
     /// As [`node`](Cable::node).
     fn detach(&mut self, at: impl Into<At>) -> Result<(), Error>;
 
+    /// Returns the twists between the nodes that hold the spin, to be [set](Self::set_twists) when
+    /// something else has taken hold of these; `None` of a cable that is as built.
+    fn twists(&self) -> Option<Vec<SegmentTwist>>;
+
+    /// Sets the twists, if the same nodes hold the spin: they are lost where none does in between.
+    fn set_twists(&mut self, twists: Vec<SegmentTwist>);
+
     /// Sets the clock to `time` (s); prescribed motions and the ramps of loads keep their distance
     /// from it.
     ///
@@ -210,9 +218,9 @@ pub trait Coupling {
     /// energy: S of the last step. Its law is about the sum of both.
     fn energy_in_store(&self) -> f64;
 
-    /// Returns the largest jump of the tension between neighbouring elements before it is averaged,
-    /// in N: a bound of its error that converges with the first order under bending, where the
-    /// average that is read has the second. `None` if no node can judge.
+    /// Returns the largest jump between neighbouring elements of the tension that their strain says,
+    /// in N: a bound of its error that converges with the first order under bending, far above that
+    /// of the tension that is read by equilibrium. `None` if no node can judge.
     fn tension_jump(&self) -> Option<f64>;
 
     /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the
@@ -342,6 +350,16 @@ impl Coupling for Cable {
 
     fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {
         Cable::detach(self, at)
+    }
+
+    fn twists(&self) -> Option<Vec<SegmentTwist>> {
+        self.snapshot.state.memory.torsion.clone()
+    }
+
+    fn set_twists(&mut self, twists: Vec<SegmentTwist>) {
+        if self.model.segments().map(|segment| segment.nodes).eq(twists.iter().map(|twist| twist.nodes)) {
+            self.snapshot.state.memory.torsion = Some(twists);
+        }
     }
 
     fn set_time(&mut self, time: f64) -> Result<(), Error> {

@@ -15,6 +15,7 @@
 mod engine;
 mod linearisation;
 
+pub use crate::state::SegmentTwist;
 #[cfg(feature = "parallel")]
 pub use crate::step::{cost_of_step, jobs_of_task};
 pub use engine::Coupling;

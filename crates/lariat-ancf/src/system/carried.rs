@@ -11,6 +11,18 @@
 //! acts on the node itself, so T and m are those of the neighbours, of the support and of the load
 //! there, and the reaction is their sum.
 //!
+//! Between two elements of lengths a and b where nothing acts on the node, the force is that of both
+//! chords, each in the middle of its element,
+//!
+//! ```text
+//! F = (b dU/dr_1 + a dU/dr_2)/(a + b)
+//! ```
+//!
+//! for what is distributed along both, weight, drag and inertia, is in them with opposite signs.
+//! Between the nodes of an element in which nothing pulls at a point, F is linear, and the tension
+//! is its part along the tangent. The strain says the same where EA eps resolves it: its error is
+//! EA times a power of the element, which in a slack rope exceeds the tension.
+//!
 //! # Validity
 //!
 //! At nodes. The nodal forces of a beam have the order of its energy, twice that of its curvature:
@@ -29,7 +41,7 @@
 //! taut cable it shows a tenth of the moment with elements of 37 sqrt(EI/T).
 
 use super::Reading;
-use super::jacobian::element_force;
+use super::jacobian::{control_force, element_force};
 use super::project_vector;
 use crate::dual::{Dual, constant};
 use crate::element::assembly::add_force;
@@ -78,6 +90,40 @@ impl Reading<'_> {
             Some(Carried { slope, force, tension: force.dot(&direction), moment })
         };
         Some([end(0, -1.0)?, end(1, 1.0)?])
+    }
+
+    /// Returns whether all that acts between the nodes of an element is known, and is distributed
+    /// along it.
+    pub fn is_evenly_loaded(&self, e: usize, contacts: &[ContactMemory]) -> bool {
+        let touches = |touch: &ContactMemory| touch.element as usize == e && touch.force != 0.0;
+        if !self.knows_forces() || self.model.is_at_eye(e) || contacts.iter().any(touches) {
+            return false;
+        }
+        let begin: f64 = self.model.elements[..e].iter().map(|element| element.length).sum();
+        let (end, near) = (begin + self.model.elements[e].length, AT_NODE * self.model.length());
+        !self.model.pulled_points().any(|s| s > begin + near && s < end - near)
+    }
+
+    /// Returns the force in N that an element carries along its chord, if it is evenly loaded.
+    fn chord_force(&self, e: usize, contacts: &[ContactMemory]) -> Option<Vector3<f64>> {
+        if !self.is_evenly_loaded(e, contacts) {
+            return None;
+        }
+        let of = |x: &[f64]| -> [Dual; 12] { core::array::from_fn(|i| constant(x.get(6 * e + i).map_or(0.0, |x| *x))) };
+        let (force, scale) = control_force(&self.system.forces, e, [&of(self.q), &of(self.v)]);
+        Some(Vector3::from(force[1].map(|f| f.value * scale)))
+    }
+
+    /// Returns the force in N at a node between two elements at an arc length in m, where nothing
+    /// holds or pulls it: the mean of both chords, with weights by which distributed loads and
+    /// inertia cancel.
+    pub fn force_at_node(&self, node: usize, s: f64, contacts: &[ContactMemory]) -> Option<Vector3<f64>> {
+        if node == 0 || node == self.model.elements.len() || !self.model.is_smooth_at(node, s) {
+            return None;
+        }
+        let [before, behind] = [self.chord_force(node - 1, contacts)?, self.chord_force(node, contacts)?];
+        let [a, b] = [node - 1, node].map(|e| self.model.elements[e].length);
+        Some((before * b + behind * a) / (a + b))
     }
 
     /// Returns the accelerations of the nodes in the present state; `None` where they are not

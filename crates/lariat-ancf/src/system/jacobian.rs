@@ -70,8 +70,9 @@ fn add_elements(forces: &Forces, at: ForceInput<'_>, rates: [f64; 2], matrix: &m
     }
 }
 
-/// Computes elastic force and effects of one element.
-pub(super) fn element_force(forces: &Forces, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12]) -> [Dual; 12] {
+/// Computes what strain, damping and rest shape of one element do on its control vectors, and the
+/// scale of the middle one, its chord.
+pub(super) fn control_force(forces: &Forces, e: usize, [q, v]: [&[Dual; 12]; 2]) -> (Control<Dual>, f64) {
     let elements = &forces.elements;
     let s = elements.slope_scale(e);
     let control = |x: &[Dual; 12]| -> Control<Dual> {
@@ -81,7 +82,12 @@ pub(super) fn element_force(forces: &Forces, e: usize, time: f64, q: &[Dual; 12]
     let stiffness = Stiffness { axial: constant(axial), bending: constant(bending) };
     let state = ElementState { stiffness, d: control(q), velocity: Some(control(v)) };
     let Elements { table, bending, .. } = elements;
-    let f = Kernel { table, bending, effects: &forces.in_element.as_ref() }.force(&state, &Single(e));
+    (Kernel { table, bending, effects: &forces.in_element.as_ref() }.force(&state, &Single(e)), s)
+}
+
+/// Computes elastic force and effects of one element.
+pub(super) fn element_force(forces: &Forces, e: usize, time: f64, q: &[Dual; 12], v: &[Dual; 12]) -> [Dual; 12] {
+    let (f, s) = control_force(forces, e, [q, v]);
     let mut out = [constant(0.0); 12];
     for x in 0..3 {
         out[x] = f[1][x] * s;

@@ -86,9 +86,8 @@ fn cable(statics: &CableStatics) -> String {
         0.0 => String::new(),
         held => format!("\n  without friction, which could hold {held:.1e} N along it"),
     };
-    let jump = statics.tension_jump_n.map_or(String::new(), |jump| format!(" +- {jump:.1e}"));
     let mut text = format!(
-        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {}{jump} N at {} m{sag}{friction}\n",
+        "cable {:?}: {stable}, residual {:.1e} N after {} iterations\n  peak tension {} N at {} m{sag}{friction}\n",
         statics.name,
         statics.residual_n,
         statics.iterations,
