@@ -318,3 +318,46 @@ fn the_hose_kinks_at_the_torque_of_greenhill() {
     println!("{below} m, {above} m");
     assert!(below < 2e-3 && above > 0.1, "{below} {above}");
 }
+
+/// Statics keep the initial twist of a rope that bodies clamp: a fixed one, and one that a slider lets move along the rope alone; the rope held by
+/// the world gives the same. So do runs that start in equilibrium, all together or rope by rope.
+///
+/// *Source.* A torsion spring: the torque GJ 2 pi n/L; a rope along a slack arc in a plane has it, too.
+#[test]
+fn statics_keep_the_twist_that_bodies_hold() {
+    let slider = "[[joint]]\nkind = \"slider\"\nbody = \"chuck\"\nto = \"world\"\nat = [1.0, 0.0, 0.0]\naxis = [1.0, 0.0, 0.0]\n";
+    let dynamic = "shape = \"none\"\nmass = 0.05\ninertia = [1e-4, 1e-4, 1e-4]\n";
+    let shaft = |turns: f64, body: &str, joint: &str, head: &str, start: &str, end: &str| {
+        format!(
+            "gravity = [0.0, 0.0, 0.0]\nduration = 0.05\n{head}[[body]]\nname = \"chuck\"\n{body}position = [1.0, 0.0, 0.0]\n{joint}\
+             [[cable]]\nname = \"rod\"\npoints = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\nelements = 8\naxial_stiffness = 2e4\nbending_stiffness = 0.05\n\
+             mass_per_length = 0.1\ndamping = {{ axial = 0.01, bending = 0.02 }}\ntorsion = {{ stiffness = 0.04, initial_twist = {turns:?} }}\n{start}\
+             [[attachment]]\ncable = \"rod\"\nat = \"start\"\nbody = \"world\"\nkind = \"clamp\"\n\
+             [[attachment]]\ncable = \"rod\"\nat = \"end\"\nbody = \"{end}\"\nkind = \"clamp\"\n[[probe]]\nname = \"twist\"\ntorsion = \"rod\"\n"
+        )
+    };
+    let fixed = "shape = \"none\"\nkind = \"fixed\"\n";
+    let (all, own) = ("initial = \"equilibrium\"\n", "initial = \"equilibrium\"\n");
+    // below 8.99 EI/L = 0.45 N m, at which a rod between clamps goes into a loop
+    for turns in [0.2, 1.0, -1.6] {
+        let expected = 0.04 * 2.0 * PI * turns;
+        for (body, joint, head, start, end) in [
+            (fixed, "", "", "", "chuck"),
+            (dynamic, slider, "", "", "chuck"),
+            (fixed, "", "", "", "world"),
+            (fixed, "", all, "", "chuck"),
+            (dynamic, slider, all, "", "chuck"),
+            (fixed, "", "", own, "chuck"),
+        ] {
+            let text = shaft(turns, body, joint, head, start, end);
+            let purpose = if head.is_empty() && start.is_empty() { Purpose::Static } else { Purpose::Run };
+            let scene =
+                Scene::parse("shaft.toml", &text, &[], purpose).unwrap_or_else(|error| panic!("{error}\n{text}"));
+            let found = run::collect(&scene, purpose, &mut Options::default()).unwrap();
+            let probe = &found.probes[0];
+            for row in probe.rows.chunks(probe.columns.len()) {
+                assert!((row[1] / expected - 1.0).abs() < 1e-4, "{turns} turns, {joint:?} {head:?} {start:?}: {row:?}");
+            }
+        }
+    }
+}

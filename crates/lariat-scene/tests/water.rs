@@ -429,3 +429,41 @@ fn mistakes_are_told_where_they_are() {
     let dry = "duration = 1.0\n[[cable]]\nname = \"a\"\npoints = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\nsection = { nylon = 0.01 }\n[cable.drag]\n";
     assert!(parsed(dry).unwrap_err().contains("fluid_density"));
 }
+
+/// What statics read is without the wave, as their shape is; a run that starts from it is in the wave.
+///
+/// *Source.* The same scene without a wave, to the bit; equilibrium: both ends carry the weight in water.
+#[test]
+fn statics_read_what_a_cable_carries_without_the_wave() {
+    let scene = |amplitude: f64| {
+        format!(
+            "duration = 1.0\n[water]\ndensity = 1025.0\nlevel = 0.0\n[water.wave]\namplitude = {amplitude:?}\nperiod = 8.0\ndirection = [1.0, 0.0, 0.0]\n\
+             [[cable]]\nname = \"chain\"\npoints = [[0.0, -30.0, 0.0], [30.0, -1.0, 0.0]]\nlength = 45.0\nsection = {{ chain = \"30 mm\" }}\n\
+             elements = 10\n[cable.drag]\nnormal = 2.4\ndiameter = 0.03\n[cable.buoyancy]\n\
+             [[attachment]]\nname = \"low\"\ncable = \"chain\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\nname = \"top\"\ncable = \"chain\"\nat = \"end\"\nbody = \"world\"\n\
+             [[body]]\nname = \"rock\"\nkind = \"fixed\"\nshape = {{ ball = 0.1 }}\nposition = [0.0, -40.0, 0.0]\n"
+        )
+    };
+    let at_rest = |amplitude: f64| {
+        let scene = Scene::parse("scene.toml", &scene(amplitude), &[], Purpose::Static).unwrap();
+        let mut world = World::build(&scene).unwrap();
+        world.start(Purpose::Static).unwrap();
+        world
+    };
+    let forces = |world: &mut World| [0, 1].map(|k| world.attachment(k).unwrap().0);
+    let (mut still, mut high) = (at_rest(1e-4), at_rest(2.0));
+    let [still, waved] = [&mut still, &mut high].map(forces);
+    let weight = 20.01e3 * 0.03 * 0.03 * 45.0 * G * (1.0 - RHO / 7850.0);
+    println!("{still:?} {waved:?}, {weight} N");
+    assert_eq!(still, waved);
+    assert!(((waved[0].y + waved[1].y).abs() / weight - 1.0).abs() < 1e-4, "{waved:?} {weight}");
+    // the run from it feels the wave at once
+    let state = lariat_scene::run::State::of(&high).unwrap();
+    let scene = Scene::parse("scene.toml", &scene(2.0), &[], Purpose::Resume).unwrap();
+    let mut world = World::build(&scene).unwrap();
+    world.resume(&state).unwrap();
+    (1..=30).for_each(|k| world.advance(f64::from(k) / 60.0).unwrap());
+    let moved = forces(&mut world);
+    assert!((moved[1] - waved[1]).norm() > 10.0, "{moved:?} {waved:?}");
+}

@@ -26,6 +26,7 @@ use crate::error::Error;
 use crate::scene::body::BodyKind;
 use crate::scene::{Scene, SheaveScene};
 use crate::warning::Warning;
+use lariat_ancf::coupling::{Coupling, SegmentTwist};
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
 use lariat_rapier::convert::to_vector;
@@ -152,6 +153,15 @@ impl Physics {
             passed: Vec::new(),
             load_work,
         })
+    }
+
+    /// Gives cables the twists that they had before bodies took hold of them.
+    pub fn keep_twists(&mut self, twists: Vec<Option<Vec<SegmentTwist>>>) {
+        for (handle, twists) in self.handles.iter().zip(twists) {
+            if let (Ok(cable), Some(twists)) = (self.cables.get_mut(*handle), twists) {
+                cable.set_twists(twists);
+            }
+        }
     }
 
     /// Takes the cables of the scene, attaches them to the bodies and joins them to each other; `held_by` are force (N) and moment

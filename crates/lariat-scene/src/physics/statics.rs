@@ -82,6 +82,7 @@ impl Physics {
     pub fn set_off(&mut self, scene: &Scene) -> Result<(), Error> {
         for (i, &handle) in self.handles.iter().enumerate() {
             let cable = self.cables.get_mut(handle).map_err(|source| Error::Coupling { time: 0.0, source })?;
+            scene.add_wave(cable, i)?;
             scene.set_off(cable, i, !self.script.full_loads)?;
         }
         for (body, &handle) in scene.bodies.iter().zip(&self.bodies) {

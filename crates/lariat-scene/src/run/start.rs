@@ -10,8 +10,10 @@ use super::readings::pull;
 use super::state::State;
 use super::{BodyStatics, CableStatics, World};
 use crate::error::Error;
+use crate::scene::water::without_wave;
 use crate::scene::{Purpose, Scene};
 use crate::warning::Warning;
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, AxialRule, Cable, EquilibriumReport, Support};
 
 impl World {
@@ -29,13 +31,17 @@ impl World {
         let World { scene, alone, warnings, static_iterations, physics, .. } = self;
         warnings.extend(scene.warnings(purpose));
         let mut held_by = vec![Default::default(); scene.attachments.len()];
-        let mut reports = Vec::new();
+        let (mut reports, mut twists) = (Vec::new(), Vec::new());
         // each cable finds its shape by itself first, wherever the others are
         let moves = settles || scene.cables.iter().any(|cable| cable.equilibrium);
         let drawn = if moves && physics.is_some() { alone.clone() } else { Vec::new() };
         for (i, cable) in alone.iter_mut().enumerate() {
             scene.add_loads(cable, i, false, fully)?;
             if fully {
+                // what is read at rest is without the wave, too
+                if let Some(still) = without_wave(cable.effects()) {
+                    cable.set_effects(still)?;
+                }
                 scene.add_loads(cable, i, true, true)?;
             }
             if settles || scene.cables[i].equilibrium {
@@ -66,6 +72,7 @@ impl World {
                 }
                 continue;
             }
+            twists.push(cable.twists());
             release(scene, cable, i, &mut held_by)?;
             if !settles {
                 scene.add_loads(cable, i, true, false)?;
@@ -77,6 +84,7 @@ impl World {
         }
         if let Some(physics) = physics {
             physics.take(scene, std::mem::take(alone), &held_by)?;
+            physics.keep_twists(twists);
             if settles {
                 reports = self.settle(fully, drawn)?;
             } else if moves {
@@ -101,6 +109,7 @@ impl World {
         self.warnings.extend(self.scene.warnings(Purpose::Resume));
         state.put(self)?;
         for (i, cable) in self.alone.iter_mut().enumerate() {
+            self.scene.add_wave(cable, i)?;
             self.scene.set_off(cable, i, false)?;
         }
         if let Some(physics) = &mut self.physics {

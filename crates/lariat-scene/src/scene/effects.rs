@@ -169,7 +169,8 @@ table! {
         normal = 1.2, Kind::Number(NOT_NEGATIVE);
         /// Tangential coefficient on the diameter.
         tangential = 0.01, Kind::Number(NOT_NEGATIVE);
-        /// Diameter, required for a cable without `section`.
+        /// Diameter, required for a cable without `section`. That of a chain is 1.8 times its bar: coefficients that count on the bar, as 2.4 of a
+        /// studless chain, want the bar here.
         diameter = ("that of the section"), Kind::Number(POSITIVE), "m";
         /// Velocity of the fluid: the same everywhere and always, or a table.
         flow = ("at rest"), Kind::Either(&[VECTOR, Kind::Table(&FLOW)]), "m/s";

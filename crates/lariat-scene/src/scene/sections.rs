@@ -10,7 +10,8 @@ use serde::Deserialize;
 table! {
     /// A solid section of one material, or a rope or chain by its nominal diameter, with mass, EA and no EI as catalogues have them
     /// (`RopeMaterial` of lariat-ancf names the sources). The `axial_law` of a rope or chain by name is Hooke's, unless it has another one,
-    /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation.
+    /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation. It pushes where it is compressed;
+    /// `axial_law = "rope"` does not.
     keys SECTION("[cable.section]") {
         /// Side of a square.
         square = (), Kind::Number(POSITIVE), "m";
@@ -18,15 +19,16 @@ table! {
         round = (), Kind::Number(POSITIVE), "m";
         /// Outer and inner diameter, outer > inner >= 0.
         tube = (), Kind::Numbers(&["outer", "inner"], NOT_NEGATIVE), "m";
-        /// Nominal diameter of a nylon rope.
+        /// Nominal diameter d of a nylon rope: 585.2 d^2 kg/m, EA 1.035e9 d^2 + 1.151e9 d^3 N.
         nylon = (), Kind::Number(POSITIVE), "m";
-        /// Nominal diameter of a polyester rope.
+        /// Nominal diameter d of a polyester rope: 678.8 d^2 kg/m, EA 4.315e9 d^2 N.
         polyester = (), Kind::Number(POSITIVE), "m";
-        /// Nominal diameter of a rope of high-modulus polyethylene.
+        /// Nominal diameter d of a rope of high-modulus polyethylene: 495.7 d^2 kg/m, EA 3.276e10 d^2 + 3.679e10 d^3 N.
         hmpe = (), Kind::Number(POSITIVE), "m";
-        /// Nominal diameter of a steel wire rope, with its EI.
+        /// Nominal diameter d of a steel wire rope: 4090 d^2 kg/m, EA 4.60e10 d^2 N, EI 1.253e7 d^4 N m^2.
         wire_rope = (), Kind::Number(POSITIVE), "m";
-        /// Bar diameter of a studless chain.
+        /// Bar diameter d of a studless chain: 2.001e4 d^2 kg/m, EA 8.561e10 d^2 - 3.927e7 d^3 N. Contact and drag have the diameter of a round bar
+        /// of its volume, 1.8 d, unless they are given theirs.
         chain = (), Kind::Number(POSITIVE), "m";
     }
     choose Choose::ExactlyOne(&["square", "round", "tube", "nylon", "polyester", "hmpe", "wire_rope", "chain"]);

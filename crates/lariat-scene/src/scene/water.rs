@@ -1,11 +1,12 @@
 //! `[water]`: the water that cables and bodies are in; `[body.water]`: what it does to a body.
 
+use super::Scene;
 use super::body::{BodyKind, BodyShape};
 use super::flow::{self, FLOW};
 use crate::document::{Document, KeyPath};
 use crate::error::Error;
 use crate::schema::{ANY, Kind, NOT_NEGATIVE, POSITIVE, VECTOR, table};
-use lariat_ancf::{Flow, Surface, Vector3, Water, Wave};
+use lariat_ancf::{Cable, Effects, Flow, Surface, Vector3, Water, Wave};
 use serde::Deserialize;
 use toml::Value;
 
@@ -76,6 +77,26 @@ pub struct BodyWater {
     pub rotational_drag: Vector3<f64>,
     /// Coefficient of added mass.
     pub added_mass: f64,
+}
+
+/// Returns effects in water without its wave, as statics have them; `None` if there is no wave.
+pub fn without_wave(effects: &Effects) -> Option<Effects> {
+    let mut still = effects.clone();
+    let of_drag = still.drag.iter_mut().filter_map(|drag| drag.flow.surface.as_deref_mut());
+    let of_buoyancy = still.buoyancy.iter_mut().filter_map(|buoyancy| buoyancy.surface.as_mut());
+    let waves = of_drag.chain(of_buoyancy).filter_map(|surface| surface.wave.take()).count();
+    (waves > 0).then_some(still)
+}
+
+impl Scene {
+    /// Puts a cable that statics left in still water back into the wave.
+    pub fn add_wave(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
+        let own = &self.cables[index].effects;
+        if without_wave(own).is_some() && cable.effects() != own {
+            cable.set_effects(own.clone())?;
+        }
+        Ok(())
+    }
 }
 
 /// Reads the water of a scene.
