@@ -48,19 +48,22 @@ pub struct Recipe {
     pub preset: &'static str,
     /// Host steps of a run.
     pub steps: u32,
+    /// What a host step of a game may cost in us: the mean over a run.
+    pub budget: u32,
     pub build: fn() -> Outcome<Box<dyn Stage>>,
     /// The file.
     pub source: &'static str,
 }
 
 macro_rules! recipe {
-    ($name:ident, $stage:ident, $cables:literal, $bodies:literal, $preset:literal, $steps:literal) => {
+    ($name:ident, $stage:ident, $cables:literal, $bodies:literal, $preset:literal, $steps:literal, $budget:literal) => {
         Recipe {
             name: stringify!($name),
             cables: $cables,
             bodies: $bodies,
             preset: $preset,
             steps: $steps,
+            budget: $budget,
             build: || Ok(Box::new($name::$stage::new()?)),
             source: include_str!(concat!(stringify!($name), ".rs")),
         }
@@ -69,27 +72,27 @@ macro_rules! recipe {
 
 /// All recipes, in the order of the page.
 pub const ALL: [Recipe; 21] = [
-    recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300),
-    recipe!(grapple, Grapple, "1 x 10", 1, "game", 120),
-    recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300),
-    recipe!(walked_bridge, WalkedBridge, "2 x 43", 21, "game", 570),
-    recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200),
-    recipe!(hook, Hook, "1 x 4", 1, "game", 900),
-    recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90),
-    recipe!(crane, Crane, "1 x 10", 1, "generalised-alpha-0, 1/240 s", 900),
-    recipe!(pulley, Pulley, "1 x 42", 2, "game", 45),
-    recipe!(net, Net, "40 x 4", 1, "game", 360),
-    recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600),
-    recipe!(seabed, Seabed, "1 x 52", 0, "game", 1200),
-    recipe!(rov, Rov, "1 x 15", 1, "game", 4800),
-    recipe!(corner, Corner, "1 x 16", 1, "game", 180),
-    recipe!(edge, Edge, "1 x 40", 1, "game", 420),
-    recipe!(zip_line, ZipLine, "2 x 10", 1, "game", 240),
-    recipe!(flag, Flag, "2 x 7", 1, "game", 1200),
-    recipe!(lamps, Lamps, "12 x 4", 12, "game", 2400),
-    recipe!(leash, Leash, "1 x 10", 1, "game", 900),
-    recipe!(teleport, Teleport, "1 x 10", 2, "game", 180),
-    recipe!(save, Save, "1 x 10", 1, "game", 300),
+    recipe!(tow_rope, TowRope, "1 x 10", 2, "generalised-alpha-0, 1/240 s", 300, 1000),
+    recipe!(grapple, Grapple, "1 x 10", 1, "game", 120, 500),
+    recipe!(bridge, Bridge, "2 x 16", 7, "generalised-alpha-0, 1/240 s", 300, 1000),
+    recipe!(walked_bridge, WalkedBridge, "2 x 43", 21, "game", 570, 4000),
+    recipe!(lamp, Lamp, "1 x 8", 1, "game", 1200, 200),
+    recipe!(hook, Hook, "1 x 4", 1, "game", 900, 200),
+    recipe!(cut, Cut, "1 x 12, then 2 x 6", 1, "game", 90, 200),
+    recipe!(crane, Crane, "1 x 10", 1, "generalised-alpha-0, 1/240 s", 900, 300),
+    recipe!(pulley, Pulley, "1 x 42", 2, "game", 45, 2000),
+    recipe!(net, Net, "40 x 4", 1, "game", 360, 3000),
+    recipe!(mooring, Mooring, "1 x 30", 0, "engineering, tolerance 1e-4 m", 600, 500),
+    recipe!(seabed, Seabed, "1 x 52", 0, "game", 1200, 1000),
+    recipe!(rov, Rov, "1 x 15", 1, "game", 4800, 500),
+    recipe!(corner, Corner, "1 x 16", 1, "game", 180, 1000),
+    recipe!(edge, Edge, "1 x 40", 1, "game", 420, 1000),
+    recipe!(zip_line, ZipLine, "2 x 10", 1, "game", 240, 1000),
+    recipe!(flag, Flag, "2 x 7", 1, "game", 1200, 500),
+    recipe!(lamps, Lamps, "12 x 4", 12, "game", 2400, 500),
+    recipe!(leash, Leash, "1 x 10", 1, "game", 900, 200),
+    recipe!(teleport, Teleport, "1 x 10", 2, "game", 180, 200),
+    recipe!(save, Save, "1 x 10", 1, "game", 300, 300),
 ];
 
 impl Recipe {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -27,7 +29,7 @@ class Sample(NamedTuple):
     slope: Array
     """Slope vector dr/ds; its length is the stretch."""
     tension: float
-    """Tension in N, averaged at nodes; negative = compression."""
+    """Tension in N, the force along the tangent, by the equilibrium of the nodes; negative = compression."""
     curvature: Array
     """Curvature vector in 1/m, along the binormal."""
     moment: Array
@@ -35,7 +37,7 @@ class Sample(NamedTuple):
     green_strain: float
     """Green strain, projected on linear functions inside the element."""
     tension_uncertainty: float
-    """The larger jump of the tension in N at the nodes of the element before averaging; all of it if no node can judge."""
+    """What the strain misses to the tension in N, far above its error; all of it if nothing can judge."""
 
 
 class Samples(NamedTuple):
@@ -371,3 +373,15 @@ def section(axial: float, bending: float, mass: float, diameter: float | None, o
     from lariat_cables import Section
 
     return Section(axial, bending, mass, diameter=diameter, outer_area=outer_area)
+
+
+def _document() -> None:
+    """Give each field the text below it, which ``help`` shows: named tuples forget it."""
+    for tuple_ in ast.parse(Path(__file__).read_text("utf-8")).body:
+        fields = tuple_.body if isinstance(tuple_, ast.ClassDef) else []
+        for field, text in zip(fields, fields[1:], strict=False):
+            if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant):
+                getattr(globals()[tuple_.name], field.target.id).__doc__ = text.value.value  # type: ignore[union-attr]
+
+
+_document()
