@@ -47,6 +47,11 @@ impl InWater {
         InWater(self.0.with_added_mass(coefficient))
     }
 
+    /// The same with coefficients of added mass along the axes of the body.
+    pub fn with_added_mass_along(self, coefficients: impl Into<[f64; 3]>) -> Self {
+        InWater(self.0.with_added_mass_along(coefficients))
+    }
+
     /// The same with a displaced volume in m^3, in place of that of its colliders.
     pub fn with_volume(self, volume: f64) -> Self {
         InWater(self.0.with_volume(volume))

@@ -72,6 +72,29 @@ def test_water_is_saved_changed_and_taken_away() -> None:
     assert world.rigid_bodies[ball].linvel[1] == pytest.approx(before - 9.81 / 60, abs=1e-4)
 
 
+def test_added_mass_is_one_number_or_one_for_each_axis() -> None:
+    """Source: v = F t/(m + C_i m) of a neutral body; three equal numbers are one."""
+
+    def pulled(added: object, axis: int) -> np.ndarray:
+        world, ball = pool(1000.0, level=None)
+        world.immerse(ball, added_mass=added)
+        force = [0.0] * 3
+        force[axis] = 10.0
+        world.rigid_bodies[ball].add_force(force)
+        for _ in range(60):
+            world.step()
+        return np.asarray(world.rigid_bodies[ball].linvel)
+
+    mass = 1000.0 * 4 / 3 * math.pi * 0.2**3
+    for axis, coefficient in enumerate([0.1, 1.4, 0.7]):
+        expected = 10.0 / (mass * (1 + coefficient))
+        assert pulled([0.1, 1.4, 0.7], axis)[axis] == pytest.approx(expected, rel=1e-4)
+    assert np.array_equal(pulled(0.5, 0), pulled([0.5] * 3, 0))
+    world, ball = pool(1000.0)
+    with pytest.raises(lariat.errors.WaterValueError):
+        world.immerse(ball, added_mass=[0.5, -1.0, 0.5])
+
+
 def test_what_cannot_be_in_water_is_refused_by_name() -> None:
     world = lariat.World()
     wall = world.add_body(lariat.RigidBody.fixed(), [lariat.Collider.ball(0.2)])

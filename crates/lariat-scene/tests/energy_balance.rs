@@ -335,19 +335,25 @@ fn the_work_of_water_is_known() {
         "current = [0.4, 0.0, 0.0]\nwave = { amplitude = 0.2, period = 4.0, direction = [1.0, 0.0, 0.0] }\n",
         "drag_area = 0.3, ",
     );
-    for (mass, half) in [(0.3, 0.3), (40.0, 0.3), (180.0, 0.4)] {
+    for (mass, half, added) in [
+        (0.3, 0.3, "0.8"),
+        (40.0, 0.3, "0.8"),
+        (180.0, 0.4, "0.8"),
+        (40.0, 0.3, "[0.2, 1.1, 0.7]"),
+        (180.0, 0.4, "[1.3, 0.4, 0.0]"),
+    ] {
         for (cable, attachment) in [(loose, ""), (moored, moor)] {
             for (water, drag) in [still, sea] {
                 for dt in [1.0 / 60.0, 1.0 / 480.0] {
                     let text = format!(
                         "duration = 6.0\ndt = {dt:?}\n[water]\ndensity = 1025.0\nlevel = 0.0\n{water}[[body]]\nname = \"float\"\n\
                          shape = {{ cuboid = [{half:?}, {half:?}, {half:?}] }}\nmass = {mass:?}\nposition = [0.0, 0.2, 0.0]\n\
-                         water = {{ {drag}added_mass = 0.8 }}\n{cable}axial_stiffness = 5e4\nbending_stiffness = 0.1\n\
+                         water = {{ {drag}added_mass = {added} }}\n{cable}axial_stiffness = 5e4\nbending_stiffness = 0.1\n\
                          mass_per_length = 0.5\nelements = 6\ndamping = {{ axial = 0.005 }}\n\
                          [[attachment]]\ncable = \"c\"\nat = \"start\"\nbody = \"world\"\n{attachment}"
                     );
                     let (_, balance) = execute(&Scene::parse("float.toml", &text, &[], Purpose::Run).unwrap());
-                    assert!(share(&balance) < 5e-4, "{mass} kg, {water:?}, {dt}: {:.1e}", share(&balance));
+                    assert!(share(&balance) < 5e-4, "{mass} kg, {added}, {water:?}, {dt}: {:.1e}", share(&balance));
                 }
             }
         }

@@ -401,6 +401,35 @@ fn the_energy_balance_knows_the_work_of_water() {
     }
 }
 
+/// A neutral body that is pulled along each of its axes; three equal numbers are one, to the bit.
+///
+/// *Source.* v = F t/(m + C_i m) of a constant force.
+#[test]
+fn added_mass_is_one_number_or_one_for_each_axis() {
+    let scene = |added: &str, force: [f64; 3]| {
+        format!(
+            "duration = 2.0\n[water]\ndensity = 1025.0\n[[body]]\nname = \"fish\"\nshape = {{ cuboid = [0.4, 0.1, 0.2] }}\nmass = 65.6\n\
+             water = {{ added_mass = {added} }}\n[[load]]\nbody = \"fish\"\nforce = {force:?}\n\
+             [[cable]]\nname = \"far\"\npoints = [[0.0, 9.0, 0.0], [0.0, 8.0, 0.0]]\nsection = {{ nylon = 0.01 }}\n"
+        )
+    };
+    let velocity = |text: &str| {
+        let mut world = started(text);
+        (1..=120).for_each(|step| world.advance(f64::from(step) / 60.0).unwrap());
+        world.body(0).unwrap().velocity
+    };
+    for (axis, c) in [0.25, 1.75, 0.6].into_iter().enumerate() {
+        let mut force = [0.0; 3];
+        force[axis] = 20.0;
+        let found = velocity(&scene("[0.25, 1.75, 0.6]", force))[axis];
+        let expected = 20.0 * 2.0 / (65.6 * (1.0 + c));
+        println!("{axis}: {found} {expected}");
+        assert!((found / expected - 1.0).abs() < 2e-5, "{axis} {found} {expected}");
+    }
+    let skew = [9.0, -4.0, 6.0];
+    assert_eq!(velocity(&scene("0.6", skew)), velocity(&scene("[0.6, 0.6, 0.6]", skew)));
+}
+
 #[test]
 fn mistakes_are_told_where_they_are() {
     let good = buoy(4.0, 0.1, "drag_area = 0.3\n");
@@ -415,7 +444,8 @@ fn mistakes_are_told_where_they_are() {
         ("direction = [1.0, 0.0, 0.0]", "direction = [0.0, 1.0, 0.0]", "direction"),
         ("drag_area = 0.3", "drag_area = [0.3, 0.2]", "drag_area"),
         ("drag_area = 0.3", "volume = 0.0", "volume"),
-        ("added_mass = 0.3", "added_mass = [0.3, 0.1, 0.3]", "added_mass"),
+        ("added_mass = 0.3", "added_mass = [0.3, -0.1, 0.3]", "added_mass"),
+        ("added_mass = 0.3", "added_mass = [0.3, 0.1]", "added_mass"),
         ("shape = { cylinder = [1.0, 0.25] }", "shape = \"none\"", "volume"),
         ("mass = 150.0", "kind = \"fixed\"", "fixed"),
         ("duration = 60.0", "duration = 60.0\ngravity = [0.0, 0.0, 0.0]", "gravity"),

@@ -798,15 +798,15 @@ class World:
         drag_area: ArrayLike | None = None,
         *,
         spin_drag: ArrayLike | None = None,
-        added_mass: float = 0.0,
+        added_mass: float | ArrayLike | None = None,
         volume: float | None = None,
     ) -> None:
         """Puts a dynamic body into the water: buoyancy, the forces of its wave, drag, and added mass.
 
         ``drag_area`` is drag coefficient times area (m^2), ``spin_drag`` the coefficient of the quadratic drag of rotation (m^5), both (3,) along
-        the axes of the body, none by default. ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere. ``volume``
-        (m^3) is by default that of its colliders. The body has now its mass and colliders; call it again after they change. Raises
-        NoWaterError, NoBodyError, NotDynamicError, WaterValueError, NoVolumeError."""
+        the axes of the body, none by default. ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere: a
+        number, or (3,) along the axes of the body. ``volume`` (m^3) is by default that of its colliders. The body has now its mass and
+        colliders; call it again after they change. Raises NoWaterError, NoBodyError, NotDynamicError, WaterValueError, NoVolumeError."""
 
     def emerge(self, body: Handle) -> bool:
         """Takes a body out of the water, with its added mass; returns whether it was in it. Raises TypeError for what is no handle."""

@@ -21,6 +21,19 @@ struct Parameters {
     flow: Flow,
 }
 
+/// A number in all directions, or one for each axis of a body.
+struct OneOrAxes(Vector3<f64>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for OneOrAxes {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        match f64::extract(object) {
+            Ok(number) => Ok(OneOrAxes(Vector3::repeat(number))),
+            Err(_) => Vector::extract(object).map(|axes| OneOrAxes(axes.0)),
+        }
+    }
+}
+
 impl Parameters {
     fn water(self, gravity: Vector3<f64>) -> Water {
         let mut flow = self.flow;
@@ -77,22 +90,23 @@ impl World {
     ///
     /// ``drag_area`` is drag coefficient times area (m^2), ``spin_drag`` the coefficient of the
     /// quadratic drag of rotation (m^5), both (3,) along the axes of the body, none by default.
-    /// ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere. ``volume``
-    /// (m^3) is by default that of its colliders. The body has now its mass and colliders; call it
+    /// ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere: a number, or
+    /// (3,) along the axes of the body. ``volume`` (m^3) is by default that of its colliders. The body has now its mass and colliders; call it
     /// again after they change. Raises NoWaterError, NoBodyError, NotDynamicError, WaterValueError,
     /// NoVolumeError.
-    #[pyo3(signature = (body, drag_area=None, *, spin_drag=None, added_mass=0.0, volume=None))]
+    #[pyo3(signature = (body, drag_area=None, *, spin_drag=None, added_mass=None, volume=None))]
     fn immerse(
         &self,
         py: Python<'_>,
         body: Handle,
         drag_area: Option<Vector>,
         spin_drag: Option<Vector>,
-        added_mass: f64,
+        added_mass: Option<OneOrAxes>,
         volume: Option<f64>,
     ) -> PyResult<()> {
         let zero = Vector3::zeros();
         let [drag_area, spin_drag] = [drag_area, spin_drag].map(|given| given.map_or(zero, |v| v.0));
+        let added_mass = added_mass.map_or(zero, |given| given.0);
         let immersed = Immersed { volume, drag_area, spin_drag, added_mass };
         let put = self.0.compute(py, |Contents { world, set, .. }| {
             set.water_mut().map(|water| water.insert(world, body.0, immersed))

@@ -5,7 +5,7 @@ use crate::body::{is_integrated, read};
 use crate::contents::Contents;
 use crate::convert::vector;
 use crate::error::Error;
-use ::nalgebra::Vector3;
+use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{Energy, Momentum};
 use rapier::dynamics::RigidBodyHandle;
@@ -39,9 +39,15 @@ pub(crate) fn momentum(contents: &Contents, world: &PhysicsWorld) -> Result<Mome
         sum.angular += own.angular;
     }
     for body in dynamic_bodies(contents, world) {
-        let (linear, angular) = body?.1.momentum();
+        let (handle, body) = body?;
+        let (linear, angular) = body.momentum();
         sum.linear += linear;
         sum.angular += angular;
+        if let Some(further) = further_mass(contents, world, handle) {
+            let linear = further * body.velocity;
+            sum.linear += linear;
+            sum.angular += body.position.cross(&linear);
+        }
     }
     Ok(sum)
 }
@@ -57,11 +63,19 @@ pub(crate) fn energy(contents: &Contents, world: &PhysicsWorld) -> Result<WorldE
         let (handle, body) = body?;
         let scale = f64::from(world.bodies[handle].gravity_scale());
         sum.bodies_kinetic += body.kinetic_energy();
+        if let Some(further) = further_mass(contents, world, handle) {
+            sum.bodies_kinetic += 0.5 * body.velocity.dot(&(further * body.velocity));
+        }
         // added mass has no weight
         let added = contents.water.as_ref().map_or(0.0, |water| water.added_mass(handle));
         sum.bodies_gravity -= (body.mass - added) * scale * gravity.dot(&body.position);
     }
     Ok(sum)
+}
+
+/// Returns the added mass of a body in kg that is not in its mass, in world axes.
+fn further_mass(contents: &Contents, world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<Matrix3<f64>> {
+    contents.water.as_ref()?.further_mass(world, handle)
 }
 
 /// Returns all dynamic bodies but ledgers, with their state in `f64` where it is kept.

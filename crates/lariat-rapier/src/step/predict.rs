@@ -36,7 +36,7 @@ use crate::step::energy;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
 use crate::step::substepping;
-use ::nalgebra::Vector6;
+use ::nalgebra::{Matrix6, Vector6};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::OneStep;
 use lariat_ancf::island::{PinConstraint, RigidBody};
@@ -161,8 +161,25 @@ fn read_members(
         prediction.start.push(body);
     }
     find_mechanisms(contents, world, island, prediction, step);
+    carry_further_mass(contents, world, island, prediction);
     prediction.end.extend_from_slice(&prediction.start);
     Ok(())
+}
+
+/// Lets the members that nothing but cables moves carry the added mass that Rapier does not
+/// ([`crate::water`]).
+fn carry_further_mass(contents: &mut Contents, world: &PhysicsWorld, island: &Island, prediction: &mut Prediction) {
+    let Some(water) = &mut contents.water else { return };
+    for ((member, body), mechanism) in island.members.iter().zip(&mut prediction.start).zip(&prediction.mechanisms) {
+        let Member::Body(handle) = member else { continue };
+        let alone = mechanism.is_none() && proximity::is_isolated(world, *handle);
+        if let Some((further, force)) = water.carry(*handle, alone) {
+            let mut carried = Matrix6::zeros();
+            carried.fixed_view_mut::<3, 3>(0, 0).copy_from(&further);
+            body.carried = Some(carried);
+            body.force += force;
+        }
+    }
 }
 
 /// Finds the mechanisms of the members, and adds inertia and loads of the bodies that these move

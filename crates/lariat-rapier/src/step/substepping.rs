@@ -124,8 +124,8 @@ pub(crate) fn count(
         needed = needed.max(JOINTED_STEPS * f64::from(pieces(dt)));
     }
     let fastest = || fastest.unwrap_or_else(|| proximity::fastest(world));
-    let heave = contents.water.as_ref().map_or(0.0, |water| dt * water.fastest_heave(world, dt) / MAX_PHASE);
-    let needed = needed.max(heave).max(rotation(held.bodies(), world, dt)).max(pressed(contents, world, (dt, fastest)));
+    let swing = contents.water.as_ref().map_or(0.0, |water| dt * water.fastest_motion(world, dt) / MAX_PHASE);
+    let needed = needed.max(swing).max(rotation(held.bodies(), world, dt)).max(pressed(contents, world, (dt, fastest)));
     let needed = contents.cables.values().map(|slot| slot.cable.steps_of_reels(dt)).fold(needed, f64::max);
     // a value that is not a number, or too large, gives the maximum
     (needed.ceil().min(f64::from(max)) as u32).max(min)

@@ -1,12 +1,13 @@
 //! The bodies of a world that are in water.
 
+use super::added_mass::Further;
 use super::hull::Hull;
 use super::immersed::Immersed;
 use super::member::{Input, Member, WaterForce};
 use super::still::StillWater;
 use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
-use ::nalgebra::Vector3;
+use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::Water;
 use lariat_ancf::island::PlacedLoad;
 use rapier::dynamics::{MassProperties, RigidBodyHandle};
@@ -67,20 +68,41 @@ impl BodiesInWater {
         self.members.iter().find(|m| m.body == body).map(|m| &m.immersed)
     }
 
-    /// Returns the added mass in kg that is in the mass of a body now: none of one in air, or in no
-    /// water.
+    /// Returns the added mass in kg that is in the mass of a body now, the least of that along its
+    /// axes: none of one in air, or in no water.
     pub fn added_mass(&self, body: RigidBodyHandle) -> f64 {
         self.volume_and_added_mass(body).map_or(0.0, |(_, added)| added)
     }
 
-    /// Returns volume (m^3) and added mass (kg) of a body, which has none while it is in air.
+    /// Returns the added mass in kg along the axes of a body now: none of one in air, or in no
+    /// water.
+    pub fn added_mass_along(&self, body: RigidBodyHandle) -> Vector3<f64> {
+        let of = |m: &Member| m.further().map_or(Vector3::zeros(), |further| further.axes()).add_scalar(m.carried());
+        self.members.iter().find(|m| m.body == body).map_or(Vector3::zeros(), of)
+    }
+
+    /// Returns the added mass in kg beyond that in the mass of a body, as a matrix in world axes;
+    /// it has momentum and kinetic energy beside the body's. `None` where it is alike along all
+    /// axes.
+    pub fn further_mass(&self, world: &PhysicsWorld, body: RigidBodyHandle) -> Option<Matrix3<f64>> {
+        let further = self.members.iter().find(|m| m.body == body)?.further()?;
+        Some(further.at(&rotation(*world.bodies.get(body)?.rotation())))
+    }
+
+    /// Lets an island carry the further mass of a body over the present step, or not. Returns it in
+    /// kg, in world axes, and what the force on the body in N then exceeds that of the user by.
+    pub(crate) fn carry(&mut self, body: RigidBodyHandle, carried: bool) -> Option<(Matrix3<f64>, Vector3<f64>)> {
+        self.members.iter_mut().find(|m| m.body == body)?.carry(carried)
+    }
+
+    /// Returns volume (m^3) and added mass (kg), as [`added_mass`](Self::added_mass), of a body.
     pub fn volume_and_added_mass(&self, body: RigidBodyHandle) -> Option<(f64, f64)> {
         self.members.iter().find(|m| m.body == body).map(|m| (m.volume(), m.carried()))
     }
 
     /// Puts a dynamic body into the water, with its present mass and colliders, and adds its added
-    /// mass to that of the body, at its centre of mass. One that is in it already is taken out
-    /// first.
+    /// mass to that of the body, at its centre of mass: the least of that along its axes, while the
+    /// rest acts as a [force](super::added_mass). One that is in it already is taken out first.
     ///
     /// # Errors
     /// [`Error::NoBody`]; [`Error::NotDynamic`]; [`Error::WaterValue`]; [`Error::NoVolume`] for a
@@ -111,9 +133,10 @@ impl BodiesInWater {
         crate::body::update_mass(world, body);
         let mass = f64::from(world.bodies[body].mass());
         let floating = hull.volume().min(mass / density);
-        let added = f64::from((immersed.added_mass * density * floating) as Real);
-        add_mass(world, body, added);
-        self.members.push(Member::new(body, hull, immersed, (added, floating)));
+        let added = immersed.added_mass.map(|c| f64::from((c * density * floating) as Real));
+        let (least, further) = Further::split(&added);
+        add_mass(world, body, least);
+        self.members.push(Member::new(body, hull, immersed, (least, further), floating));
         Ok(())
     }
 
@@ -145,7 +168,8 @@ impl BodiesInWater {
 
     /// Returns the work in J of the water on a body since it is in it: that of buoyancy, wave and
     /// drag, and what the body gained as it took up or left its added mass. What balances the
-    /// weight of the added mass is no force of the water.
+    /// weight of the added mass is no force of the water, and the kinetic energy of its
+    /// [further mass](Self::further_mass) is the body's.
     pub fn work(&self, body: RigidBodyHandle) -> Option<f64> {
         self.members.iter().find(|m| m.body == body).map(|m| m.work)
     }
@@ -160,20 +184,25 @@ impl BodiesInWater {
     /// A Rapier step of length h with a constant force moves a body in n substeps of the symplectic
     /// Euler method by h (v + (n + 1)/(2 n) dv), with the change of velocity dv; the mean velocity
     /// would move it by h (v + dv/2), and the force does work m |dv|^2/(2 n) over the rest. The law
-    /// is exact for a body that nothing else acts on, but for the gyroscopic part of a rotation. Of
-    /// a body with cables it is 0: its motion is that of the constant force.
+    /// is exact for a body that nothing else acts on, but for the gyroscopic part of a rotation;
+    /// with added mass that differs by axis it is of first order in the step, and m dv and I dw are
+    /// less by what that adds to them. Of a body with cables it is 0: its motion is that of the
+    /// constant force.
     pub fn lost_in_substeps(&self, body: RigidBodyHandle) -> Option<f64> {
         self.members.iter().find(|m| m.body == body).map(|m| m.substeps)
     }
 
     /// Returns the largest angular frequency in rad/s with which a body heaves that the surface
-    /// reaches in a step of `dt` (s): that of its area through the centroid.
-    pub(crate) fn fastest_heave(&self, world: &PhysicsWorld, dt: f64) -> f64 {
-        let Some(surface) = &self.water.flow.surface else { return 0.0 };
-        let (sea, gravity) = (surface.sea(), vector(world.gravity).norm());
+    /// reaches in a step of `dt` (s), that of its area through the centroid, or swings across its
+    /// way.
+    pub(crate) fn fastest_motion(&self, world: &PhysicsWorld, dt: f64) -> f64 {
+        let (sea, gravity) = (self.water.flow.surface.as_ref().map(|s| s.sea()), vector(world.gravity).norm());
         let of = |member: &Member| {
             let body = world.bodies.get(member.body).filter(|body| body.is_dynamic() && !body.is_sleeping());
-            body.map_or(0.0, |body| member.heave(body, &sea, (self.time, dt), (self.water.density, gravity)))
+            let Some(body) = body else { return 0.0 };
+            let swing = member.swing(body, &self.water, self.time);
+            let heave = |sea| member.heave(body, sea, (self.time, dt), (self.water.density, gravity));
+            sea.as_ref().map_or(swing, |sea| swing.max(heave(sea)))
         };
         self.members.iter().map(of).fold(0.0, f64::max)
     }
@@ -257,7 +286,7 @@ impl BodiesInWater {
             + further;
         let drag = self.at_rest(world, handle, self.time).map_or(Vector3::zeros(), |force| force.drag);
         let of = |member: &&mut Member| member.body == handle;
-        self.members.iter_mut().find(of).into_iter().for_each(|member| member.rest(known, drag));
+        self.members.iter_mut().find(of).into_iter().for_each(|member| member.rest(known, drag, place.1));
     }
 
     fn without_wave(&self) -> Water {

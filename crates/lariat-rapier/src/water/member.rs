@@ -1,5 +1,6 @@
 //! The force of water on one body over a step.
 
+use super::added_mass::{Carry, Further, FurtherStep, lasting};
 use super::drag::{mean_drag, midpoint};
 use super::hull::{Hull, Wet};
 use super::immersed::Immersed;
@@ -9,7 +10,7 @@ use crate::scales::water::{SAME_DRAG, SMALL_ANGLE, STEP_ROUNDS};
 use ::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use lariat_ancf::island::LoadThere;
 use lariat_ancf::{Sea, Water};
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
 use rapier::math::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -24,12 +25,26 @@ struct Memory {
     /// What was not, in the step before it.
     unknown: Vector3<f64>,
     drag: Vector3<f64>,
+    /// Of its further mass, if it has some.
+    #[serde(default)]
+    carry: Option<Carry>,
 }
 
 /// Returns the inertia about the centre of mass in kg m^2, in world axes.
 fn world_inertia(body: &RigidBody) -> Matrix3<f64> {
     let turn = rotation(*body.rotation()).to_rotation_matrix();
     turn * symmetric_inertia(body) * turn.transpose()
+}
+
+/// Returns the angular acceleration in rad/s^2 that moments (N m) give, in world axes.
+fn acceleration(body: &RigidBody, moments: &Vector3<f64>) -> Vector3<f64> {
+    let inertia = world_inertia(body);
+    let Some(inverse) = inertia.try_inverse() else { return Vector3::zeros() };
+    let spin = vector(body.angvel());
+    let gyroscopic = if body.gyroscopic_forces_enabled() { spin.cross(&(inertia * spin)) } else { Vector3::zeros() };
+    let axes = [LockedAxes::ROTATION_LOCKED_X, LockedAxes::ROTATION_LOCKED_Y, LockedAxes::ROTATION_LOCKED_Z];
+    let free = Vector3::from(axes.map(|axis| if body.locked_axes().contains(axis) { 0.0 } else { 1.0 }));
+    free.component_mul(&(inverse * free.component_mul(&(moments - gyroscopic))))
 }
 
 /// What acts on a body in a Rapier step.
@@ -48,6 +63,7 @@ struct Acting {
     balance: Vector3<f64>,
     /// Share of the step by which the position is ahead.
     lead: f64,
+    further: Option<FurtherStep>,
 }
 
 /// A body in water.
@@ -56,8 +72,11 @@ pub(super) struct Member {
     pub(super) body: RigidBodyHandle,
     hull: Hull,
     pub(super) immersed: Immersed,
-    /// Added mass in kg, part of that of the body while any of it is wet.
+    /// Added mass in kg, part of that of the body while any of it is wet, and what is beyond it
+    /// along its axes.
     added: f64,
+    #[serde(default)]
+    further: Option<Further>,
     /// Whether all of it is in air.
     #[serde(default)]
     dry: bool,
@@ -87,8 +106,8 @@ pub struct WaterForce {
     pub drag_point: Vector3<f64>,
     /// Force of the wave on the added mass, in N, through the centre of mass.
     pub inertia: Vector3<f64>,
-    /// Moment in N m beside that of the forces, world axes: drag of rotation, and what makes the
-    /// righting moment that of the middle of the step.
+    /// Moment in N m beside that of the forces, world axes: drag of rotation, what makes
+    /// the righting moment that of the middle of the step, and Munk's moment.
     pub moment: Vector3<f64>,
     /// Share of the volume that is wet.
     pub wet: f64,
@@ -126,11 +145,28 @@ struct Place {
 }
 
 impl Member {
-    /// Creates a body in water by its added mass (kg) and the volume (m^3) that it displaces when
+    /// Creates a body in water by its added mass (kg), and the volume (m^3) that it displaces when
     /// it floats.
-    pub(super) fn new(body: RigidBodyHandle, hull: Hull, immersed: Immersed, (added, floating): (f64, f64)) -> Self {
-        let memory = Memory::default();
-        Member { body, hull, immersed, added, dry: false, floating, memory, work: 0.0, substeps: 0.0, acting: None }
+    pub(super) fn new(
+        body: RigidBodyHandle,
+        hull: Hull,
+        immersed: Immersed,
+        (added, further): (f64, Option<Further>),
+        floating: f64,
+    ) -> Self {
+        Member {
+            body,
+            hull,
+            immersed,
+            added,
+            further,
+            dry: false,
+            floating,
+            memory: Memory::default(),
+            work: 0.0,
+            substeps: 0.0,
+            acting: None,
+        }
     }
 
     /// Returns the volume in m^3.
@@ -138,16 +174,27 @@ impl Member {
         self.hull.volume()
     }
 
-    /// Returns the added mass in kg that the body has now.
+    /// Returns the added mass in kg that is in the mass of the body now.
     pub(super) fn carried(&self) -> f64 {
         if self.dry { 0.0 } else { self.added }
+    }
+
+    /// Returns the added mass that the body has now beyond that.
+    pub(super) fn further(&self) -> Option<Further> {
+        self.further.filter(|_| !self.dry)
+    }
+
+    /// Lets an island carry the further mass over the present step, or not, as
+    /// [`FurtherStep::carry`].
+    pub(super) fn carry(&mut self, carried: bool) -> Option<(Matrix3<f64>, Vector3<f64>)> {
+        self.acting.as_mut()?.further.as_mut()?.carry(carried)
     }
 
     /// Finds whether all of the body is in air over a step. Returns the mass in kg to add to it if
     /// that has changed, and its velocity (m/s) then: the water that it takes along has its
     /// momentum, and keeps that when it is left behind.
     pub(super) fn meet(&mut self, body: &RigidBody, input: &Input<'_>) -> Option<(f64, Vector3<f64>)> {
-        let sea = input.sea.filter(|_| self.added > 0.0)?;
+        let sea = input.sea.filter(|_| self.added > 0.0 || self.further.is_some())?;
         let (turn, velocity) = (rotation(*body.rotation()), vector(body.linvel()));
         let centre = vector(body.translation()) + turn * self.hull.centre();
         // what is below by its centroid is wet, without a look at its shape
@@ -158,12 +205,23 @@ impl Member {
             return None;
         }
         let mass = f64::from(body.mass());
-        let (change, after) = if dry {
+        let (change, mut after) = if dry {
             (-self.added, velocity)
         } else {
             let water = input.water.current(input.time, &centre) + sea.at(input.time, &centre).velocity;
             (self.added, (velocity * mass + water * self.added) / (mass + self.added))
         };
+        if let Some(further) = self.further {
+            let energy = |velocity: &Vector3<f64>| 0.5 * velocity.dot(&(further.at(&turn) * velocity));
+            if dry {
+                self.work -= energy(&velocity);
+            } else {
+                let water = input.water.current(input.time, &centre) + sea.at(input.time, &centre).velocity;
+                let both = after * (mass + self.added) + further.at(&turn) * water;
+                after = further.mobility(mass + self.added, &turn) * both;
+                self.work += energy(&after);
+            }
+        }
         self.work += 0.5 * ((mass + change) * after.norm_squared() - mass * velocity.norm_squared());
         self.forget();
         self.dry = dry;
@@ -175,10 +233,11 @@ impl Member {
         (self.memory, self.acting) = (Memory::default(), None);
     }
 
-    /// Remembers rest under known forces (N), and drag, that others balance.
-    pub(super) fn rest(&mut self, known: Vector3<f64>, drag: Vector3<f64>) {
+    /// Remembers rest at an attitude under known forces (N), and drag, that others balance.
+    pub(super) fn rest(&mut self, known: Vector3<f64>, drag: Vector3<f64>, attitude: UnitQuaternion<f64>) {
+        let carry = self.further().map(|_| Carry::at_rest(attitude, -known));
         // the length of a step in which nothing changed does not matter
-        self.memory = Memory { velocity: Vector3::zeros(), step: 1.0, known, unknown: -known, drag };
+        self.memory = Memory { velocity: Vector3::zeros(), step: 1.0, known, unknown: -known, drag, carry };
     }
 
     /// Returns the speed in m/s that no point of the body exceeds.
@@ -196,7 +255,7 @@ impl Member {
     /// without a wave. It has a potential where there is no drag:
     ///
     /// ```text
-    /// E = rho g V_s d, or rho V g.x without a surface;  + a g.x        d: depth of the centroid of V_s
+    /// E = rho g V_s d, or rho V g.x without a surface;  + a g.x - u.R u/2        d: depth of the centroid of V_s
     /// ```
     pub(super) fn still(
         &self,
@@ -214,14 +273,17 @@ impl Member {
         let coefficient = self.immersed.drag_area * (0.5 * water.density * share);
         let drag = rotation * (coefficient.component_mul(&relative) * -relative.norm());
         let weight = gravity * (-scale * self.carried());
+        // Munk's moment of a body at rest in a current
+        let carried = self.further().map_or(Vector3::zeros(), |further| further.axes().component_mul(&relative));
+        let munk = rotation * carried.cross(&relative);
         let of_water = match sea {
             Some(sea) => gravity.norm() * sea.depth(time, &(centre + lever)),
             None => gravity.dot(&(centre + lever)),
         };
-        let energy = water.density * wet.volume * of_water - weight.dot(centre);
+        let energy = water.density * wet.volume * of_water - weight.dot(centre) - 0.5 * carried.dot(&relative);
         LoadThere {
             force: pressure + drag + weight,
-            moment: lever.cross(&pressure) + arm.cross(&drag),
+            moment: lever.cross(&pressure) + arm.cross(&drag) + munk,
             energy: (relative == Vector3::zeros() || self.immersed.drag_area == Vector3::zeros()).then_some(energy),
         }
     }
@@ -243,7 +305,19 @@ impl Member {
         }
         let (normal, small) = (turn.inverse() * sea.up(), SMALL_ANGLE * self.hull.radius());
         let [below, above] = [small, -small].map(|depth| self.hull.below(&normal, depth).volume);
-        (density * gravity * (below - above) / (2.0 * small * f64::from(body.mass()))).sqrt()
+        let mass = f64::from(body.mass());
+        let mass =
+            self.further().map_or(mass, |further| 1.0 / sea.up().dot(&(further.mobility(mass, &turn) * sea.up())));
+        (density * gravity * (below - above) / (2.0 * small * mass)).sqrt()
+    }
+
+    /// Returns the angular frequency in rad/s with which the body swings at most by Munk's moment.
+    pub(super) fn swing(&self, body: &RigidBody, water: &Water, time: f64) -> f64 {
+        let Some(further) = self.further() else { return 0.0 };
+        let turn = rotation(*body.rotation());
+        let centre = vector(body.translation()) + turn * self.hull.centre();
+        let velocity = turn.inverse() * (vector(body.linvel()) - water.current(time, &centre));
+        further.fastest_swing(f64::from(body.mass()), &velocity, &symmetric_inertia(body).diagonal())
     }
 
     /// Returns the length in m that goes with a radian.
@@ -254,10 +328,11 @@ impl Member {
     /// Adds the force of a step to that of the user.
     pub(super) fn put_on(&mut self, body: &mut RigidBody, input: &Input<'_>) {
         let memory = self.memory;
-        let (force, turned) = self.force(body, input);
+        let (force, turned, further) = self.force(body, input);
         let (centre, scale) = (vector(body.local_center_of_mass()), f64::from(body.gravity_scale()));
         let balance = input.gravity * (-scale * self.carried());
         let sum = force.pressure + force.drag + force.inertia + balance;
+        let sum = further.map_or(sum, |further| sum + further.force);
         let moment = (turned * (force.pressure_point - centre)).cross(&force.pressure)
             + (turned * (force.drag_point - centre)).cross(&force.drag)
             + force.moment;
@@ -267,13 +342,14 @@ impl Member {
         let with = [body.user_force(), body.user_torque()];
         let place = (vector(body.center_of_mass()), rotation(*body.rotation()));
         let velocity = [vector(body.linvel()), vector(body.angvel())];
-        self.acting = Some(Acting { own, with, memory, place, velocity, balance, lead: input.lead / input.h });
+        self.acting = Some(Acting { own, with, memory, place, velocity, balance, lead: input.lead / input.h, further });
     }
 
     /// Takes the force of the last step off a body, if it is still there: after the step, whose
     /// work it adds, or without one.
     pub(super) fn take_off(&mut self, body: Option<&mut RigidBody>, stepped: bool) {
-        let Some(Acting { own, with, memory, place, velocity, balance, lead }) = self.acting.take() else { return };
+        let Some(acting) = self.acting.take() else { return };
+        let Acting { own, with, memory, place, velocity, balance, lead, further } = acting;
         if !stepped {
             self.memory = memory;
         }
@@ -292,30 +368,56 @@ impl Member {
             self.work += (force - balance).dot(&moved) + torque.dot(&turn);
             let [dv, dw] = [vector(body.linvel()) - velocity[0], vector(body.angvel()) - velocity[1]];
             self.substeps += lead * (f64::from(body.mass()) * dv.norm_squared() + dw.dot(&(world_inertia(body) * dw)));
+            if let Some(further) = further {
+                let (force, moment) = (further.force, further.moment);
+                self.work += further.work_of_current() - force.dot(&moved) - moment.dot(&turn);
+                self.substeps -= lead * self.memory.step * (force.dot(&dv) + moment.dot(&dw));
+                let attitude = rotation(*body.rotation());
+                self.memory.carry = (!body.is_sleeping()).then(|| further.ended([&dv, &dw], attitude));
+            }
         }
     }
 
-    /// Returns the mean force over a step with the attitude in its middle, and remembers what the
-    /// next one needs.
-    fn force(&mut self, body: &RigidBody, input: &Input<'_>) -> (WaterForce, UnitQuaternion<f64>) {
+    /// Returns the mean force over a step with the attitude in its middle, and what further mass
+    /// adds to it, and remembers what the next step needs.
+    fn force(&mut self, body: &RigidBody, input: &Input<'_>) -> (WaterForce, UnitQuaternion<f64>, Option<FurtherStep>) {
         let &Input { water, sea, gravity, time, h, lead } = input;
         let (rho, half) = (water.density, 0.5 * h);
         let (mass, velocity, spin) = (f64::from(body.mass()), vector(body.linvel()), vector(body.angvel()));
         let weight = gravity * ((mass - self.carried()) * f64::from(body.gravity_scale()));
         let known = weight + vector(body.user_force());
-        let others = known + self.unknown(mass, &velocity);
+        let unknown = self.unknown(mass, &velocity);
         let turned = UnitQuaternion::from_scaled_axis(spin * half) * rotation(*body.rotation());
         let arm = turned * (self.hull.centre() - vector(body.local_center_of_mass()));
         let start = vector(body.center_of_mass()) - velocity * lead + arm;
         let up = sea.map_or(Vector3::zeros(), |sea| sea.up());
         let across = velocity - up * up.dot(&velocity);
         let place = Place { centre: start + across * half, rotation: turned };
+        let mut step = self.further().map(|further| {
+            let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &place.centre).velocity);
+            let current = water.current(time, &place.centre) + wave;
+            (further, further.at(&turned), FurtherStep::new(further, body, self.memory.carry.as_ref(), current, h))
+        });
+        let others = step.as_ref().map_or(known + unknown, |(.., step)| known + unknown + step.turning());
         let moments = symmetric_inertia(body).diagonal();
         let least = moments.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
         // what a force at the centroid feels of the mass
-        let felt = 1.0 / (1.0 / mass + arm.norm_squared() / least);
+        let felt = |mass: f64| 1.0 / (1.0 / mass + arm.norm_squared() / least);
         let to_body = |x: &Vector3<f64>| turned.inverse() * x;
-        let masses = Vector3::repeat(felt);
+        let masses = match &step {
+            None => Vector3::repeat(felt(mass)),
+            Some((further, ..)) => further.axes().map(|beyond| felt(mass + beyond)),
+        };
+        // the force in N by which all of the mass but Rapier's is accelerated
+        let beyond = |acceleration: &Vector3<f64>| match &step {
+            None => Vector3::zeros(),
+            Some((_, beyond, _)) => beyond * acceleration,
+        };
+        // the way in m along up that a force moves the body in the step
+        let lifted = |force: &Vector3<f64>| match &step {
+            None => h * half / mass * up.dot(force),
+            Some((.., step)) => h * half * up.dot(&(step.mobility * force)),
+        };
         // all of it for a mean volume and a rise, with drag by its mean or, implicit, at the mean
         // velocity
         let acting = |(volume, rise): (f64, f64), implicit: bool| {
@@ -325,24 +427,28 @@ impl Member {
             let acceleration = at.map_or(Vector3::zeros(), |at| at.acceleration);
             let share = if self.floating > 0.0 { (volume / self.floating).min(1.0) } else { 0.0 };
             let pressure = acceleration * (rho * wet.volume) - gravity * (rho * volume);
-            let inertia = acceleration * (share * self.added);
+            let inertia = acceleration * (share * self.added) + beyond(&acceleration) * share;
             let wave = sea.map_or(Vector3::zeros(), |sea| sea.at(time, &middle).velocity);
             let relative = to_body(&(velocity + spin.cross(&arm) - water.current(time, &middle) - wave));
             let factor = 0.5 * rho * share;
             let coefficient = self.immersed.drag_area * factor;
-            let forces = to_body(&(others + pressure + inertia - acceleration * mass));
+            let forces = to_body(&(others + pressure + inertia - acceleration * mass - beyond(&acceleration)));
             let drag = if h <= 0.0 {
                 -coefficient.component_mul(&relative) * relative.norm()
             } else if implicit {
-                midpoint(&masses, &coefficient, &(relative + forces * (0.5 * h / felt)), h)
+                let gained = forces.component_mul(&masses.map(|felt| 0.5 * h / felt));
+                midpoint(&masses, &coefficient, &(relative + gained), h)
             } else {
                 mean_drag(&masses, &coefficient, &relative, &forces, h)
             };
             InStep { middle, wet, pressure, inertia, factor, drag: turned * drag }
         };
         let rising = self.rising(input, &place);
-        let by_volume = h * half / mass * rho * -gravity.dot(&up);
-        let without_buoyancy = |drag: &Vector3<f64>| h * up.dot(&velocity) + h * half / mass * up.dot(&(others + drag));
+        let by_volume = match &step {
+            None => h * half / mass * rho * -gravity.dot(&up),
+            Some(_) => lifted(&(gravity * -rho)),
+        };
+        let without_buoyancy = |drag: &Vector3<f64>| h * up.dot(&velocity) + lifted(&(others + drag));
         let risen = |drag: &Vector3<f64>| {
             rising.as_ref().map_or((self.hull.volume(), 0.0), |rising| rising.solve(without_buoyancy(drag), by_volume))
         };
@@ -384,21 +490,34 @@ impl Member {
         let inertias = moments.map(|x| if x > 0.0 { x } else { f64::INFINITY });
         let torque = (turned * (wet.centre - vector(body.local_center_of_mass()))).cross(&pressure);
         let inertia_matrix = symmetric_inertia(body);
-        let righting = self.righting(input, &(middle - arm), &turned, &inertia_matrix, body);
-        let torque = to_body(&(torque + righting + arm.cross(&drag) + vector(body.user_torque())));
-        let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
         let known = known + pressure + inertia + drag;
-        self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag };
+        let righting = self.righting(input, &(middle - arm), &turned, &inertia_matrix, body);
+        let beside = match &mut step {
+            None => righting,
+            Some((.., step)) => {
+                // without the lead of the substeps
+                step.add_munk([known, unknown], UnitQuaternion::from_scaled_axis(-spin * lead) * turned);
+                righting + step.moment
+            }
+        };
+        let moments = torque + beside + arm.cross(&drag) + vector(body.user_torque());
+        let torque = to_body(&moments);
+        let spin_drag = mean_drag(&inertias, &(self.immersed.spin_drag * factor), &to_body(&spin), &torque, h);
+        if let Some((.., step)) = &mut step {
+            step.complete(body, &acceleration(body, &(moments + turned * spin_drag)), lead);
+        }
+        let carry = self.memory.carry;
+        self.memory = Memory { velocity, step: h, known, unknown: self.memory.unknown, drag, carry };
         let force = WaterForce {
             pressure,
             pressure_point: wet.centre,
             drag,
             drag_point: self.hull.centre(),
             inertia,
-            moment: turned * spin_drag + righting,
+            moment: turned * spin_drag + beside,
             wet: wet.volume / self.hull.volume(),
         };
-        (force, turned)
+        (force, turned, step.map(|(.., step)| step))
     }
 
     /// Returns by how much the mean righting moment over a step, that at the attitude in its middle
@@ -442,9 +561,12 @@ impl Member {
             memory.unknown = Vector3::zeros();
             return Vector3::zeros();
         }
-        let last = (velocity - memory.velocity) * (mass / memory.step) - memory.known;
+        let last = match &memory.carry {
+            Some(carry) => carry.others,
+            None => (velocity - memory.velocity) * (mass / memory.step) - memory.known,
+        };
         let before = core::mem::replace(&mut memory.unknown, last);
-        last.zip_map(&before, |a, b| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()).copysign(a) })
+        lasting(&last, &before)
     }
 
     /// Returns what is below the surface with the centroid of the whole at a point.

@@ -33,7 +33,8 @@
 //! it displaces when it floats; u and u' velocity and acceleration of the water, current and wave,
 //! in the middle of V_s; W the angular velocity. Buoyancy and the pressure of the wave (Froude and
 //! Krylov) act at the centroid of V_s, drag at that of V. a has no weight, and is part of the mass
-//! of the body in Rapier.
+//! of the body in Rapier. Where it differs along the axes of the body, the least of it is, and what
+//! is beyond acts as a force ([`added_mass`](self::added_mass), with Munk's moment).
 //!
 //! *Over a Rapier step* all of it is one constant force and moment: the mean buoyancy over the rise
 //! r of the step at the attitude in its middle, and the mean drag of [`drag`],
@@ -53,12 +54,11 @@
 //!
 //! - Bodies small beside the wave length: the water is that at one point, and the surface over the
 //!   body is a plane with the slope of the wave. No diffraction, no damping by waves that the body
-//!   makes; added mass does not depend on frequency, and is alike in all directions: one for each
-//!   axis would make Rapier's mass a matrix, which it has not.
+//!   makes; added mass does not depend on frequency, and there is none of rotation.
 //! - Added mass is in the mass of a body while any of it is wet. The body takes it up when it
 //!   comes in, all at once, with the momentum of both (von Karman 1929, of slamming, which is
-//!   spread over the time of entry), and leaves it behind when it comes out. So it falls freely in
-//!   air, and no entry makes energy.
+//!   spread over the time of entry; along each axis where it differs), and leaves it behind when it
+//!   comes out. So it falls freely in air, and no entry makes energy.
 //! - Rapier steps of less than half a period of heave and roll, into which host steps are split
 //!   ([`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps)). Beyond that the motion of
 //!   a light float is bounded by its energy, but what does not damp within a step goes on.
@@ -79,13 +79,14 @@
 //! # References
 //!
 //! Archimedes; von Karman 1929, NACA TN 321 (momentum of entry); Morison et al. 1950; Faltinsen
-//! 1990, ch. 3 (long waves: Froude and Krylov with added mass).
+//! 1990, ch. 3 (long waves: Froude and Krylov with added mass); Lamb 1932, §124 (mass by axes).
 //!
 //! # Alternatives considered
 //!
 //! Forces at the beginning of the step: a float with a period of 2 s gains 4 % of its amplitude in
 //! a second, at 1/60 s.
 
+pub mod added_mass;
 pub mod bodies;
 pub mod drag;
 pub mod hull;

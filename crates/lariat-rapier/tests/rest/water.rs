@@ -139,16 +139,18 @@ fn a_weight_in_a_current_hangs_at_its_angle_at_every_speed() {
     }
 }
 
-/// A plate whose drag depends on its attitude, on an arm: statics find it, and the residual of all forces and moments is rounding.
+/// A plate whose drag and added mass depend on its attitude, on an arm: statics find it, and the residual of all forces and moments is rounding.
 ///
-/// *Source.* It balances: the moment about the tie, by the force of the water as the steps have it.
+/// *Source.* It balances: the moment about the tie, by the force of the water as the steps have it, with Munk's moment -u x A u.
 #[test]
 fn a_body_whose_drag_depends_on_its_attitude_is_found() {
-    for speed in [0.5, 2.0, 5.0] {
+    for (speed, added) in
+        [(0.5, [0.3; 3]), (2.0, [0.3; 3]), (5.0, [0.3; 3]), (0.5, [0.1, 1.2, 0.3]), (2.0, [0.1, 1.2, 0.3])]
+    {
         let water = Water::new(RHO).with_flow(Flow::uniform(Vector3::new(speed, 0.0, 0.0)));
         let start = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -10.0, 0.0));
         let shape = ColliderBuilder::cuboid(0.4, 0.05, 0.2).density(4000.0);
-        let mut immersed = Immersed::with_drag_area([0.01, 0.3, 0.05]).with_added_mass(0.3);
+        let mut immersed = Immersed::with_drag_area([0.01, 0.3, 0.05]).with_added_mass_along(added);
         immersed.spin_drag = Vector3::new(0.01, 0.01, 0.02);
         let mut tank = tank(start, shape, water, immersed);
         tie(&mut tank, [Vector3::zeros(), down(9.9)], 9.9, [1e6, 0.05], Vector::new(-0.1, 0.1, 0.0));
@@ -162,7 +164,12 @@ fn a_body_whose_drag_depends_on_its_attitude_is_found() {
         let weight = down(G * 128.0);
         let moment = (turn(force.pressure_point) - tie).cross(&force.pressure)
             + (turn(force.drag_point) - tie).cross(&force.drag)
+            + force.moment
             - tie.cross(&weight);
+        let flow = own.rotation().inverse() * Vector::new(speed as f32, 0.0, 0.0);
+        let munk = vector(flow * Vector::from(added.map(|c| 32.0 * c as f32))).cross(&vector(flow));
+        let expected = turn(munk);
+        assert!((force.moment - expected).norm() < 1e-4 * (1.0 + expected.norm()), "{expected} {:?}", force.moment);
         println!("{speed}: {:?} {moment:?} {:?}", own.translation(), found.cables[0].1);
         assert!(moment.norm() < 1e-5 * (weight.norm() + force.drag.norm()), "{speed} {moment:?}");
     }

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::body::BodyKind;
 use lariat_ancf::Vector3;
+use lariat_ancf::island::RigidBody;
 use lariat_rapier::CableHandle;
 use lariat_rapier::convert::{rotation, vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
@@ -95,7 +96,7 @@ impl Physics {
             let (cables, of_rounding) = on_body[index];
             rounding += if free { 0.0 } else { of_rounding };
             terms.push(BodyTerms {
-                kinetic: rigid.kinetic_energy(),
+                kinetic: rigid.kinetic_energy() + self.further_kinetic(handle, &rigid),
                 gravity: (added(handle) - rigid.mass) * scene.gravity.dot(&rigid.position),
                 loads: self.load_work[index] + water(handle),
                 cables,
@@ -105,6 +106,12 @@ impl Physics {
             });
         }
         Ok(rounding)
+    }
+
+    /// Returns the kinetic energy of a body in J by the added mass that is not in its mass.
+    pub(super) fn further_kinetic(&self, handle: RigidBodyHandle, body: &RigidBody) -> f64 {
+        let further = self.cables.water().and_then(|water| water.further_mass(&self.world, handle));
+        further.map_or(0.0, |further| 0.5 * body.velocity.dot(&(further * body.velocity)))
     }
 
     /// Returns whether a cable steps by the discrete gradient.
@@ -119,7 +126,7 @@ impl Physics {
 
     /// Returns the weight of the dynamic bodies in N.
     pub fn weight(&self, scene: &Scene) -> f64 {
-        scene.gravity.norm() * self.dynamic(scene).map(|body| body.mass).sum::<f64>()
+        scene.gravity.norm() * self.dynamic(scene).map(|(_, body)| body.mass).sum::<f64>()
     }
 
     /// Returns whether the box around a collider of a body overlaps that of another body's.

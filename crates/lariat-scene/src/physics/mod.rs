@@ -381,7 +381,7 @@ impl Physics {
             }
             let Some(rigid) = lariat_rapier::rigid_body(&self.world, handle) else { continue };
             let added = self.cables.water().map_or(0.0, |water| water.added_mass(handle));
-            kinetic += rigid.kinetic_energy();
+            kinetic += rigid.kinetic_energy() + self.further_kinetic(handle, &rigid);
             gravity -= (rigid.mass - added) * scene.gravity.dot(&rigid.position);
         }
         (kinetic, gravity)
@@ -390,14 +390,17 @@ impl Physics {
     /// Returns the momentum of the dynamic bodies.
     pub fn momentum(&self, scene: &Scene) -> Momentum {
         let zero = Momentum { linear: Vector3::zeros(), angular: Vector3::zeros() };
-        self.dynamic(scene).map(|body| body.momentum()).fold(zero, |sum, (linear, angular)| Momentum {
-            linear: sum.linear + linear,
-            angular: sum.angular + angular,
+        self.dynamic(scene).fold(zero, |sum, (handle, body)| {
+            let (linear, angular) = body.momentum();
+            let further = self.cables.water().and_then(|water| water.further_mass(&self.world, handle));
+            let further = further.map_or(Vector3::zeros(), |further| further * body.velocity);
+            let angular = angular + body.position.cross(&further);
+            Momentum { linear: sum.linear + linear + further, angular: sum.angular + angular }
         })
     }
 
-    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = RigidBody> {
+    fn dynamic(&self, scene: &Scene) -> impl Iterator<Item = (RigidBodyHandle, RigidBody)> {
         let bodies = scene.bodies.iter().zip(&self.bodies).filter(|(body, _)| body.kind == BodyKind::Dynamic);
-        bodies.filter_map(|(_, &handle)| lariat_rapier::rigid_body(&self.world, handle))
+        bodies.filter_map(|(_, &handle)| Some((handle, lariat_rapier::rigid_body(&self.world, handle)?)))
     }
 }

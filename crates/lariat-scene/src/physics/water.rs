@@ -19,7 +19,7 @@ pub(super) fn fill(
     let mut filled = BodiesInWater::new(water.clone()).map_err(|source| Error::Coupling { time: 0.0, source })?;
     for (body, &handle) in scene.bodies.iter().zip(bodies) {
         let Some(own) = body.water else { continue };
-        let mut immersed = Immersed::default().with_added_mass(own.added_mass);
+        let mut immersed = Immersed::default().with_added_mass_along(own.added_mass);
         (immersed.volume, immersed.drag_area, immersed.spin_drag) = (own.volume, own.drag_area, own.rotational_drag);
         filled.insert(world, handle, immersed).map_err(|error| Error::Body {
             time: 0.0,

@@ -48,22 +48,31 @@ table! {
         /// Displaced volume.
         volume: Option<f64> = ("that of the shape; required without one"), Kind::Number(POSITIVE.single()), "m^3";
         /// Drag coefficient times area: one number, or one for each axis of the body. Where it is not wholly wet, drag is less.
-        drag_area: Option<Area> = ("0"), Kind::Either(&[Kind::Number(NOT_NEGATIVE.single()), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single())]), "m^2";
+        drag_area: Option<OneOrAxes> = ("0"), Kind::Either(&[Kind::Number(NOT_NEGATIVE.single()), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single())]), "m^2";
         /// Drag of rotation: the moment is half of it times the density times the angular velocity squared.
         rotational_drag: Option<[f64; 3]> = ("0"), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single()), "m^5";
-        /// Coefficient of added mass on the mass of water that it displaces when it floats, or all of it if it sinks; in all directions alike. It has none in air.
-        added_mass: f64 = 0.0, Kind::Number(NOT_NEGATIVE.single());
+        /// Coefficient of added mass on the mass of water that it displaces when it floats, or all of it if it sinks: one number, or one for each axis of the body. It has none in air.
+        added_mass: Option<OneOrAxes> = ("0"), Kind::Either(&[Kind::Number(NOT_NEGATIVE.single()), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single())]);
     }
 }
 
-/// A drag area as a scene writes it.
+/// A number in all directions or by axis, as a scene writes it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(untagged)]
-pub enum Area {
+pub enum OneOrAxes {
     /// In all directions.
     One(f64),
     /// By axis.
     Axes([f64; 3]),
+}
+
+impl OneOrAxes {
+    fn axes(self) -> Vector3<f64> {
+        match self {
+            OneOrAxes::One(number) => Vector3::repeat(number),
+            OneOrAxes::Axes(axes) => axes.into(),
+        }
+    }
 }
 
 /// A checked body in water.
@@ -75,8 +84,8 @@ pub struct BodyWater {
     pub drag_area: Vector3<f64>,
     /// Drag of rotation by axis in m^5.
     pub rotational_drag: Vector3<f64>,
-    /// Coefficient of added mass.
-    pub added_mass: f64,
+    /// Coefficients of added mass by axis.
+    pub added_mass: Vector3<f64>,
 }
 
 /// Returns effects in water without its wave, as statics have them; `None` if there is no wave.
@@ -147,10 +156,7 @@ pub(super) fn of_body(
     if matches!(shape, BodyShape::None) && volume.is_none() {
         return Err(doc.missing(&at.key("volume")));
     }
-    let drag_area = drag_area.map_or(Vector3::zeros(), |area| match area {
-        Area::One(area) => Vector3::repeat(area),
-        Area::Axes(areas) => areas.into(),
-    });
+    let [drag_area, added_mass] = [drag_area, added_mass].map(|given| given.map_or(Vector3::zeros(), OneOrAxes::axes));
     let rotational_drag = rotational_drag.unwrap_or_default().into();
     Ok(Some(BodyWater { volume, drag_area, rotational_drag, added_mass }))
 }
