@@ -25,8 +25,7 @@ Array = NDArray[np.float64]
 
 
 class MujocoExchange:
-    """Steps a model of MuJoCo and a cable together: ``bodies`` are the ids or names of the bodies at the ends, in the order in which these were
-    attached, each by its centre of mass (``data.xipos`` and ``data.xquat``, see ``attach``)."""
+    """Steps a model of MuJoCo and a cable together, whose ends are held by bodies at their centres of mass (``data.xipos`` and ``data.xquat``)."""
 
     def __init__(self, model: Any, data: Any, cable: Any, ends: Sequence[tuple[Any, int | str]], *, clamp: bool = False) -> None:
         """Attaches the points of a cable to bodies, ``[("end", "crate")]``, where both are now. A cable whose gravity is the default,
