@@ -98,8 +98,8 @@ pub const ALL: [Recipe; 21] = [
 impl Recipe {
     /// The beginning of its row in the table of costs.
     pub fn row(&self) -> String {
-        let Recipe { name, cables, bodies, preset, .. } = self;
-        format!("| {} | {cables} | {bodies} | {preset} |", name.replace('_', " "))
+        let Recipe { name, cables, bodies, preset, budget, .. } = self;
+        format!("| {} | {cables} | {bodies} | {preset} | {budget} |", name.replace('_', " "))
     }
 
     /// What the page shows of the file: all but its first comment and its `impl Stage`.

@@ -43,6 +43,7 @@ use super::Cable;
 use crate::rule::BendingRule;
 use crate::scales::cable::AT_NODE;
 use crate::scales::watch::{LAYER, ROOM};
+use crate::state::State;
 use crate::system::Carried;
 use nalgebra::Vector3;
 
@@ -93,6 +94,17 @@ impl Cable {
         }
         let present = reading.acceleration(contacts)?;
         reading.carried(e, |i| present[i], contacts)
+    }
+
+    /// Returns the same without the accelerations that only an assembly of all forces would say: for
+    /// the mean of two elements at a node, in which they cancel.
+    pub(super) fn carried_nearly(&self, e: usize) -> Option<[Carried; 2]> {
+        let State { memory, .. } = &self.snapshot.state;
+        let is_known = memory.valid && memory.revision == self.revision
+            || !memory.differences.is_empty()
+                && memory.differences.step > 0.0
+                && memory.differences.revision == self.revision;
+        if is_known { self.carried(e) } else { self.reading().carried(e, |_| 0.0, &memory.contacts) }
     }
 
     /// Returns the moment in N m at a node between two elements where it is free to turn at a load

@@ -10,7 +10,7 @@
 //! (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 //!
 //! What a force along the tangent is, the equilibrium of the nodes says better than the strain
-//! (`system/carried.rs`): the force is read at both nodes of an element, is linear between them,
+//! (`system/carried.rs`): the force is read at both nodes of an element, with its bulge between them,
 //! and its part along the tangent is the tension. EA eps f is read where something touches or pulls
 //! the element between its nodes, at the eyes of reels, with torsion, and with contact between cables.
 //!
@@ -95,7 +95,9 @@ impl Cable {
     pub(crate) fn smooth_in(&self, e: usize, xi: f64) -> Sample {
         let raw = self.sample_in(e, xi);
         let by_equilibrium = [e, e + 1].map(|node| self.is_read_by_equilibrium(node, self.arc_length_of(node)));
-        let mut carried = if by_equilibrium.contains(&true) { self.carried(e) } else { None };
+        let is_exact = by_equilibrium.contains(&true);
+        let own = if is_exact { self.carried(e) } else { self.carried_nearly(e) };
+        let mut carried = own.filter(|_| is_exact);
         if let Some(known) = carried {
             let layers = [0, 1].map(|k| self.layer_moment(e + k, &known, k == 1).filter(|_| by_equilibrium[k]));
             let both = carried.iter_mut().flatten().zip(layers);
@@ -109,7 +111,8 @@ impl Cable {
             return Sample { tension, tension_uncertainty: (tension - raw.tension).abs(), moment, ..raw };
         }
         let strained = raw.tension + self.pull_of_bending(&moment, &raw.curvature);
-        if let Some((force, tangent)) = self.force_in(e, xi, carried).zip(raw.slope.try_normalize(0.0)) {
+        let force = own.and_then(|own| self.force_in(e, xi, own));
+        if let Some((force, tangent)) = force.zip(raw.slope.try_normalize(0.0)) {
             let tension = force.dot(&tangent);
             return Sample { tension, tension_uncertainty: (tension - strained).abs(), moment, ..raw };
         }
@@ -123,21 +126,28 @@ impl Cable {
         Sample { tension: strained + missing, tension_uncertainty, moment, ..raw }
     }
 
-    /// Returns the force in N at a local coordinate of an element by the equilibrium of its nodes,
-    /// which is linear between them; `None` where it is not known.
-    fn force_in(&self, e: usize, xi: f64, carried: Option<[Carried; 2]>) -> Option<Vector3<f64>> {
+    /// Returns the force in N at a local coordinate of an element by the equilibrium of its nodes;
+    /// `None` where it is not known.
+    fn force_in(&self, e: usize, xi: f64, own: [Carried; 2]) -> Option<Vector3<f64>> {
         let (reading, contacts) = (self.reading(), &self.snapshot.state.memory.contacts[..]);
         if !reading.is_evenly_loaded(e, contacts) {
             return None;
         }
+        let elements = self.elements();
         let at = |k: usize| {
-            let (node, s) = (e + k, self.arc_length_of(e + k));
-            match self.is_read_by_equilibrium(node, s) {
-                true => carried.map(|carried| carried[k].force),
-                false => reading.force_at_node(node, s, contacts),
+            if self.is_read_by_equilibrium(e + k, self.arc_length_of(e + k)) {
+                return Some(own[k].force);
             }
+            let other = if k == 0 { e - 1 } else { e + 1 };
+            if !reading.is_evenly_loaded(other, contacts) {
+                return None;
+            }
+            let (a, b) = (elements[e].length, elements[other].length);
+            Some((own[k].force * b + self.carried_nearly(other)?[1 - k].force * a) / (a + b))
         };
-        Some(at(0)? * (1.0 - xi) + at(1)? * xi)
+        let (from, to) = (at(0)?, at(1)?);
+        let bulge = (from + to) * 0.5 - reading.chord_force(e);
+        Some(from * (1.0 - xi) + to * xi - bulge * (5.0 * xi * (1.0 - xi)))
     }
 
     /// Returns by how much the force in N along the tangent is more than EA eps f, by the moment in

@@ -11,17 +11,17 @@
 //! acts on the node itself, so T and m are those of the neighbours, of the support and of the load
 //! there, and the reaction is their sum.
 //!
-//! Between two elements of lengths a and b where nothing acts on the node, the force is that of both
-//! chords, each in the middle of its element,
+//! Between two elements of lengths a and b where nothing acts on the node, the force is the mean of
+//! what both carry there, with the weights b and a by which errors of the accelerations cancel, for
+//! inertia is in both with opposite signs. Within an element in which nothing pulls at a point it is
+//! quadratic, with the force along the chord, `dU/dr_2 = int 6 xi (1 - xi) F dxi`, for its bulge:
 //!
 //! ```text
-//! F = (b dU/dr_1 + a dU/dr_2)/(a + b)
+//! F(xi) = (1 - xi) F_1 + xi F_2 - 5 xi (1 - xi) ((F_1 + F_2)/2 - dU/dr_2)
 //! ```
 //!
-//! for what is distributed along both, weight, drag and inertia, is in them with opposite signs.
-//! Between the nodes of an element in which nothing pulls at a point, F is linear, and the tension
-//! is its part along the tangent. The strain says the same where EA eps resolves it: its error is
-//! EA times a power of the element, which in a slack rope exceeds the tension.
+//! and the tension is its part along the tangent. The strain says the same where EA eps resolves it:
+//! its error is EA times a power of the element, which in a slack rope exceeds the tension.
 //!
 //! # Validity
 //!
@@ -104,26 +104,11 @@ impl Reading<'_> {
         !self.model.pulled_points().any(|s| s > begin + near && s < end - near)
     }
 
-    /// Returns the force in N that an element carries along its chord, if it is evenly loaded.
-    fn chord_force(&self, e: usize, contacts: &[ContactMemory]) -> Option<Vector3<f64>> {
-        if !self.is_evenly_loaded(e, contacts) {
-            return None;
-        }
+    /// Returns the force in N of the strain of an element along its chord.
+    pub fn chord_force(&self, e: usize) -> Vector3<f64> {
         let of = |x: &[f64]| -> [Dual; 12] { core::array::from_fn(|i| constant(x.get(6 * e + i).map_or(0.0, |x| *x))) };
         let (force, scale) = control_force(&self.system.forces, e, [&of(self.q), &of(self.v)]);
-        Some(Vector3::from(force[1].map(|f| f.value * scale)))
-    }
-
-    /// Returns the force in N at a node between two elements at an arc length in m, where nothing
-    /// holds or pulls it: the mean of both chords, with weights by which distributed loads and
-    /// inertia cancel.
-    pub fn force_at_node(&self, node: usize, s: f64, contacts: &[ContactMemory]) -> Option<Vector3<f64>> {
-        if node == 0 || node == self.model.elements.len() || !self.model.is_smooth_at(node, s) {
-            return None;
-        }
-        let [before, behind] = [self.chord_force(node - 1, contacts)?, self.chord_force(node, contacts)?];
-        let [a, b] = [node - 1, node].map(|e| self.model.elements[e].length);
-        Some((before * b + behind * a) / (a + b))
+        Vector3::from(force[1].map(|f| f.value * scale))
     }
 
     /// Returns the accelerations of the nodes in the present state; `None` where they are not

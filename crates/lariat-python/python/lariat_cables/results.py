@@ -377,11 +377,15 @@ def section(axial: float, bending: float, mass: float, diameter: float | None, o
 
 def _document() -> None:
     """Give each field the text below it, which ``help`` shows: named tuples forget it."""
-    for tuple_ in ast.parse(Path(__file__).read_text("utf-8")).body:
-        fields = tuple_.body if isinstance(tuple_, ast.ClassDef) else []
-        for field, text in zip(fields, fields[1:], strict=False):
-            if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant):
-                getattr(globals()[tuple_.name], field.target.id).__doc__ = text.value.value  # type: ignore[union-attr]
+    try:
+        source = Path(__file__).read_text("utf-8")
+    except OSError:  # packed without sources
+        return
+    for own in (node for node in ast.parse(source).body if isinstance(node, ast.ClassDef)):
+        for field, text in zip(own.body, own.body[1:], strict=False):
+            match field, text:
+                case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(words))):
+                    getattr(globals()[own.name], name).__doc__ = words
 
 
 _document()

@@ -373,7 +373,10 @@ impl Member {
                 self.work += further.work_of_current() - force.dot(&moved) - moment.dot(&turn);
                 self.substeps -= lead * self.memory.step * (force.dot(&dv) + moment.dot(&dw));
                 let attitude = rotation(*body.rotation());
-                self.memory.carry = (!body.is_sleeping()).then(|| further.ended([&dv, &dw], attitude));
+                self.memory.carry = Some(match body.is_sleeping() {
+                    true => Carry::at_rest(attitude, -self.memory.known),
+                    false => further.ended([&dv, &dw], attitude),
+                });
             }
         }
     }

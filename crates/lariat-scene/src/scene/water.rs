@@ -91,21 +91,31 @@ pub struct BodyWater {
 /// Returns effects in water without its wave, as statics have them; `None` if there is no wave.
 pub fn without_wave(effects: &Effects) -> Option<Effects> {
     let mut still = effects.clone();
-    let of_drag = still.drag.iter_mut().filter_map(|drag| drag.flow.surface.as_deref_mut());
-    let of_buoyancy = still.buoyancy.iter_mut().filter_map(|buoyancy| buoyancy.surface.as_mut());
-    let waves = of_drag.chain(of_buoyancy).filter_map(|surface| surface.wave.take()).count();
-    (waves > 0).then_some(still)
+    let of_drag = surface_of_drag(&mut still).and_then(|surface| surface.wave.take()).is_some();
+    let buoyancy = still.buoyancy.as_mut().and_then(|buoyancy| buoyancy.surface.as_mut());
+    let of_buoyancy = buoyancy.and_then(|surface| surface.wave.take()).is_some();
+    (of_drag || of_buoyancy).then_some(still)
 }
 
 impl Scene {
     /// Puts a cable that statics left in still water back into the wave.
     pub fn add_wave(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
-        let own = &self.cables[index].effects;
-        if without_wave(own).is_some() && cable.effects() != own {
-            cable.set_effects(own.clone())?;
+        let (own, mut effects) = (&self.cables[index].effects, cable.effects().clone());
+        if let (Some(to), Some(from)) = (surface_of_drag(&mut effects), surface_of_drag(&mut own.clone())) {
+            to.wave = from.wave;
+        }
+        if let (Some(to), Some(from)) = (&mut effects.buoyancy, &own.buoyancy) {
+            to.surface = from.surface;
+        }
+        if effects != *cable.effects() {
+            cable.set_effects(effects)?;
         }
         Ok(())
     }
+}
+
+fn surface_of_drag(effects: &mut Effects) -> Option<&mut Surface> {
+    effects.drag.as_mut()?.flow.surface.as_deref_mut()
 }
 
 /// Reads the water of a scene.

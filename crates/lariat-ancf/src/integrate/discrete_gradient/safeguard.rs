@@ -270,7 +270,10 @@ fn accept<S: DiscreteGradientSystem>(
     }
     if !solved {
         balance.take_hidden();
-        system.count(Event::Unsolved);
+        // what a limit cut short is counted as that
+        if !demand.limit.is_some_and(WorkLimit::is_spent) {
+            system.count(Event::Unsolved);
+        }
     }
     system.accept(balance);
     demand.limit.into_iter().for_each(WorkLimit::note_progress);
