@@ -96,8 +96,8 @@ impl Cable {
         reading.carried(e, |i| present[i], contacts)
     }
 
-    /// Returns the same without the accelerations that only an assembly of all forces would say: for
-    /// the mean of two elements at a node, in which they cancel.
+    /// Returns the same without the accelerations that only an assembly of all forces would say:
+    /// for the mean of two elements at a node, in which they cancel.
     pub(super) fn carried_nearly(&self, e: usize) -> Option<[Carried; 2]> {
         let State { memory, .. } = &self.snapshot.state;
         let is_known = memory.valid && memory.revision == self.revision

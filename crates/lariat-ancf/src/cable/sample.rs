@@ -10,9 +10,10 @@
 //! (eps - eps_0 + tau eps') f`, `EI (kappa - kappa_0 + tau kappa')`.
 //!
 //! What a force along the tangent is, the equilibrium of the nodes says better than the strain
-//! (`system/carried.rs`): the force is read at both nodes of an element, with its bulge between them,
-//! and its part along the tangent is the tension. EA eps f is read where something touches or pulls
-//! the element between its nodes, at the eyes of reels, with torsion, and with contact between cables.
+//! (`system/carried.rs`): the force is read at both nodes of an element, with its bulge between
+//! them, and its part along the tangent is the tension. EA eps f is read where something touches or
+//! pulls the element between its nodes, at the eyes of reels, with torsion, and with contact
+//! between cables.
 //!
 //! There N jumps at the nodes between elements by its error, which is of first order under bending,
 //! antisymmetric about the middle of each element, and in proportion to the element's length. The
@@ -61,10 +62,10 @@ pub struct Sample {
     pub slope: Vector3<f64>,
     /// Green strain (r'.r' - 1)/2, projected on linear functions inside the element.
     pub green_strain: f64,
-    /// Tension in N, the force along the tangent, by the equilibrium of the nodes; at one that is held
-    /// or loaded, where both sides differ, on the side of smaller arc lengths. Where an element is
-    /// touched or pulled between its nodes, and with torsion or contact between cables, `EA eps f -
-    /// M kappa`, averaged at nodes. Negative = compression.
+    /// Tension in N, the force along the tangent, by the equilibrium of the nodes; at one that is
+    /// held or loaded, where both sides differ, on the side of smaller arc lengths. Where an
+    /// element is touched or pulled between its nodes, and with torsion or contact between cables,
+    /// `EA eps f - M kappa`, averaged at nodes. Negative = compression.
     pub tension: f64,
     /// Curvature vector (r' x r'')/|r'|^3 in 1/m: along the binormal.
     pub curvature: Vector3<f64>,

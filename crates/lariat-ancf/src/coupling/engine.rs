@@ -218,9 +218,9 @@ pub trait Coupling {
     /// energy: S of the last step. Its law is about the sum of both.
     fn energy_in_store(&self) -> f64;
 
-    /// Returns the largest jump between neighbouring elements of the tension that their strain says,
-    /// in N: a bound of its error that converges with the first order under bending, far above that
-    /// of the tension that is read by equilibrium. `None` if no node can judge.
+    /// Returns the largest jump between neighbouring elements of the tension that their strain
+    /// says, in N: a bound of its error that converges with the first order under bending, far
+    /// above that of the tension that is read by equilibrium. `None` if no node can judge.
     fn tension_jump(&self) -> Option<f64>;
 
     /// Returns force (N) and moment about the node (N m) of the cable on what holds `node`, at the

@@ -37,8 +37,9 @@
 //! and the largest along each cable. Tolerances begin with the error of positions that belongs to
 //! it, which is also what a tolerance counts as (`forces.rs`). The mesh indicator is about
 //! positions and says nothing; of an equilibrium the order is half an order below what two
-//! distances show, 2/3 to 2, 1 of a single distance, on which a claim rests only where finer meshes are not allowed. No distance counts as smaller than at the
-//! order 2.5 after the one before: on a seabed two meshes agree by chance to a 40th of their error.
+//! distances show, 2/3 to 2, 1 of a single distance, on which a claim rests only where finer meshes
+//! are not allowed. No distance counts as smaller than at the order 2.5 after the one before: on a
+//! seabed two meshes agree by chance to a 40th of their error.
 //!
 //! # Validity
 //!

@@ -13,15 +13,16 @@
 //!
 //! Between two elements of lengths a and b where nothing acts on the node, the force is the mean of
 //! what both carry there, with the weights b and a by which errors of the accelerations cancel, for
-//! inertia is in both with opposite signs. Within an element in which nothing pulls at a point it is
-//! quadratic, with the force along the chord, `dU/dr_2 = int 6 xi (1 - xi) F dxi`, for its bulge:
+//! inertia is in both with opposite signs. Within an element in which nothing pulls at a point it
+//! is quadratic, with the force along the chord, `dU/dr_2 = int 6 xi (1 - xi) F dxi`, for its
+//! bulge:
 //!
 //! ```text
 //! F(xi) = (1 - xi) F_1 + xi F_2 - 5 xi (1 - xi) ((F_1 + F_2)/2 - dU/dr_2)
 //! ```
 //!
-//! and the tension is its part along the tangent. The strain says the same where EA eps resolves it:
-//! its error is EA times a power of the element, which in a slack rope exceeds the tension.
+//! and the tension is its part along the tangent. The strain says the same where EA eps resolves
+//! it: its error is EA times a power of the element, which in a slack rope exceeds the tension.
 //!
 //! # Validity
 //!

@@ -3,10 +3,11 @@
 //!
 //! # Equation
 //!
-//! `N = EA (eps + that of effects) f` with the projected Green strain eps, averaged at nodes, and the
-//! strain `f/f_0 - 1`, f_0 the rest stretch: what strains the material, where
-//! [`Cable::sample`](crate::Cable::sample) reads what equilibrium asks for. Both are largest at ends of elements. An element at the eye of a reel is read at the
-//! length that it has at the time of the reading.
+//! `N = EA (eps + that of effects) f` with the projected Green strain eps, averaged at nodes, and
+//! the strain `f/f_0 - 1`, f_0 the rest stretch: what strains the material, where
+//! [`Cable::sample`](crate::Cable::sample) reads what equilibrium asks for. Both are largest at
+//! ends of elements. An element at the eye of a reel is read at the length that it has at the time
+//! of the reading.
 //!
 //! What a limit is compared with is the elastic part: what holds the material together is strained,
 //! and a cable breaks at the same strain however it is damped.

@@ -294,7 +294,8 @@ impl Cable {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
         if let Home::World(..) = slf.get().0 {
             // beside its world, it would be a cable of none
-            let message = "the cable belongs to a world: pickle that, and take its cables of what is loaded, or pickle a copy()";
+            let message =
+                "the cable belongs to a world: pickle that, and take its cables of what is loaded, or pickle a copy()";
             return Err(raise(Raise::new("InWorldError", message)));
         }
         let restore = slf.get_type().getattr("from_bytes")?;

@@ -34,7 +34,7 @@
 //! in the middle of V_s; W the angular velocity. Buoyancy and the pressure of the wave (Froude and
 //! Krylov) act at the centroid of V_s, drag at that of V. a has no weight, and is part of the mass
 //! of the body in Rapier. Where it differs along the axes of the body, the least of it is, and what
-//! is beyond acts as a force ([`added_mass`](self::added_mass), with Munk's moment).
+//! is beyond acts as a force (`added_mass`, with Munk's moment).
 //!
 //! *Over a Rapier step* all of it is one constant force and moment: the mean buoyancy over the rise
 //! r of the step at the attitude in its middle, and the mean drag of [`drag`],
