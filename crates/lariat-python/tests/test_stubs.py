@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import docstrings
-from lariat_cables import _lariat, errors
+from lariat_cables import _lariat, errors, results
 
 
 
@@ -41,6 +41,12 @@ def test_docstrings_are_those_of_the_stubs() -> None:
     for (owner, name), doc in found.items():
         thing = getattr(_lariat, owner) if owner else _lariat
         assert words(getattr(thing, name).__doc__ if name else thing.__doc__) == words(doc), (owner, name)
+
+
+def test_fields_of_results_say_what_they_are() -> None:
+    """Those with a text in the source have it in ``help``."""
+    for own in (results.Sample, results.Attachment, results.ReelReading, results.EndForces):
+        assert not any((getattr(own, name).__doc__ or "").startswith("Alias") for name in own._fields), own
 
 
 def test_calls_say_what_they_raise() -> None:

@@ -53,6 +53,16 @@ def test_a_saved_world_continues_bitwise() -> None:
     assert all(w.snapshot() == world.snapshot() for w in others)
 
 
+def test_a_cable_of_a_world_is_pickled_with_it_alone() -> None:
+    """Beside its world it would come back as a cable of none; a copy is one by itself."""
+    world, sling, *_ = payload()
+    with pytest.raises(lariat.errors.InWorldError, match="pickle that"):
+        pickle.dumps((world, sling))
+    again = pickle.loads(pickle.dumps(world))
+    again.step()
+    assert again.cables[0].time > 0.0 == pickle.loads(pickle.dumps(sling.copy())).time
+
+
 def test_restore_brings_a_world_back_in_place_and_it_continues_bitwise() -> None:
     """Law: after ``restore`` n steps give the bits of the first n steps; bodies, cables and attachments are those of before."""
     world, sling, crate, hook = payload()
