@@ -219,7 +219,10 @@ fn a_damped_rope_neither_pushes_nor_pulls_where_it_is_slack() {
             assert!((pulled - hooke).abs() < 1e-7 + 1e-9 * expected && (read - hooke_read).abs() < room, "{case}");
         }
         let (pulled, read) = of(nylon());
-        assert!(strain > 0.0 || (pulled.abs() < 1e-7 && read.abs() < 1e-7), "{name} {stretch} {speed}: {pulled} {read}");
+        assert!(
+            strain > 0.0 || (pulled.abs() < 1e-7 && read.abs() < 1e-7),
+            "{name} {stretch} {speed}: {pulled} {read}"
+        );
     }
 }
 

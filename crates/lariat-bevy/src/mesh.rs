@@ -137,14 +137,21 @@ impl RopeVertices {
         self.uvs.clear();
         self.colours.clear();
         let (mut before, mut from, mut count) = (None, 0.0, 0);
+        // read at nodes, and linear between them
+        let read = |s: f64| cable.sample(s.min(cable.length())).map_or(0.0, |sample| sample.tension);
+        let mut tensions = mesh.tensions.map(|_| [0.0, read(0.0)]);
         for (e, element) in cable.elements().iter().enumerate() {
+            if let Some([start, end]) = &mut tensions {
+                (*start, *end) = (*end, read(from + element.length));
+            }
             let last = e + 1 == cable.elements().len();
             for k in 0..mesh.rings + usize::from(last) {
                 let xi = k as f64 / mesh.rings as f64;
                 let mut ring = Ring::at(positions, e, xi, element.length, before);
                 ring.turn_to(self.stripe.get(count as usize).copied().flatten());
                 let s = from + xi * element.length;
-                let colour = mesh.tensions.map(|tensions| colour(cable, s, tensions));
+                let pull = tensions.map(|[start, end]| (1.0 - xi) * start + xi * end);
+                let colour = pull.zip(mesh.tensions).map(|(pull, tensions)| colour(pull, tensions));
                 if before.is_none() {
                     self.disc(mesh, &ring, -1.0, s, colour);
                 }
@@ -255,8 +262,7 @@ fn any_across(tangent: &Vector3<f64>) -> Vector3<f64> {
 }
 
 /// Returns white at the low tension or less, and red at the high one or more.
-fn colour(cable: &Cable, s: f64, [low, high]: [f64; 2]) -> [f32; 4] {
-    let tension = cable.sample(s.min(cable.length())).map_or(low, |sample| sample.tension);
+fn colour(tension: f64, [low, high]: [f64; 2]) -> [f32; 4] {
     let share = if high > low { ((tension - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 } as f32;
     [1.0, 1.0 - share, 1.0 - share, 1.0]
 }
