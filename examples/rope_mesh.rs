@@ -22,19 +22,24 @@ fn lamp(world: &mut World, i: usize) -> Entity {
     let lamp = Body::dynamic().at(to).with(ColliderBuilder::ball(0.05).mass(0.5));
     let lamp = world.spawn(lamp).id();
     let (rope, _) = world.spawn_rope(from, (lamp, [0.0; 3]), Rope::steel(0.008).slack(0.15));
-    world.entity_mut(rope).insert(RopeMesh::new(RADIUS).sides(8).rings(4).coloured_by_tension(0.0, 20.0));
+    world.entity_mut(rope).insert(surface(4, true));
     rope
 }
 
+/// A tube of a number of rings in each element, coloured or not.
+fn surface(rings: usize, coloured: bool) -> RopeMesh {
+    let mesh = RopeMesh::new(RADIUS).sides(8).rings(rings);
+    if coloured { mesh.coloured_by_tension(0.0, 20.0) } else { mesh }
+}
+
 /// Returns the mean time in us in which the surfaces of all ropes are drawn, each frame at other positions.
-fn cost(world: &World, ropes: &[Entity]) -> Result<f64, Box<dyn Error>> {
+fn cost(world: &World, ropes: &[Entity], coloured: bool) -> Result<f64, Box<dyn Error>> {
     let cables = world.resource::<Cables>();
     let mut drawn: Vec<(RopeMesh, RopeVertices, [Vec<f64>; 2])> = Vec::new();
     for rope in ropes {
-        let mesh = world.get::<RopeMesh>(*rope).ok_or("no mesh")?.clone();
         let now = cables.get(*rope)?.positions().to_vec();
         let moved = now.iter().map(|x| x + 1e-3).collect();
-        drawn.push((mesh, RopeVertices::default(), [now, moved]));
+        drawn.push((surface(4, coloured), RopeVertices::default(), [now, moved]));
     }
     let mut start = Instant::now();
     for frame in 0..=FRAMES {
@@ -101,13 +106,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         triangles += vertices.indices.len() / 3;
     }
-    println!("{ROPES} ropes, {triangles} triangles: {:.0} us per frame to draw all", cost(&world, &ropes)?);
+    let [plain, coloured] = [cost(&world, &ropes, false)?, cost(&world, &ropes, true)?];
+    println!(
+        "{ROPES} ropes, {triangles} triangles: {plain:.0} us per frame to draw all, {coloured:.0} us with colours"
+    );
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if let [flag, path] = &arguments[..]
         && flag == "--out"
     {
         for rope in &ropes {
-            world.entity_mut(*rope).insert(RopeMesh::new(RADIUS).sides(8).rings(2).coloured_by_tension(0.0, 20.0));
+            world.entity_mut(*rope).insert(surface(2, true));
         }
         lariat_bevy::advance(&mut world, 1.0 / 60.0);
         std::fs::write(path, picture(ropes.iter().filter_map(|rope| world.get::<RopeVertices>(*rope))))?;
