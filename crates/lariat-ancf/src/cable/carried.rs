@@ -43,7 +43,6 @@ use super::Cable;
 use crate::rule::BendingRule;
 use crate::scales::cable::AT_NODE;
 use crate::scales::watch::{LAYER, ROOM};
-use crate::state::State;
 use crate::system::Carried;
 use nalgebra::Vector3;
 
@@ -84,13 +83,9 @@ impl Cable {
     /// last step, the mean ones of a step of the discrete gradient, or those of the present forces;
     /// `None` where it is not known.
     pub(crate) fn carried(&self, e: usize) -> Option<[Carried; 2]> {
-        let (memory, reading) = (&self.snapshot.state.memory, self.reading());
-        let (last, contacts) = (&memory.differences, &memory.contacts[..]);
-        if memory.valid && memory.revision == self.revision {
-            return reading.carried(e, |i| memory.acceleration[i], contacts);
-        }
-        if !last.is_empty() && last.step > 0.0 && last.revision == self.revision {
-            return reading.carried(e, |i| last.velocity[i] / last.step, contacts);
+        let (reading, contacts) = (self.reading(), &self.snapshot.state.memory.contacts[..]);
+        if let Some((sum, over)) = self.last_accelerations() {
+            return reading.carried(e, |i| sum[i] / over, contacts);
         }
         let present = reading.acceleration(contacts)?;
         reading.carried(e, |i| present[i], contacts)
@@ -99,12 +94,22 @@ impl Cable {
     /// Returns the same without the accelerations that only an assembly of all forces would say:
     /// for the mean of two elements at a node, in which they cancel.
     pub(super) fn carried_nearly(&self, e: usize) -> Option<[Carried; 2]> {
-        let State { memory, .. } = &self.snapshot.state;
-        let is_known = memory.valid && memory.revision == self.revision
-            || !memory.differences.is_empty()
-                && memory.differences.step > 0.0
-                && memory.differences.revision == self.revision;
-        if is_known { self.carried(e) } else { self.reading().carried(e, |_| 0.0, &memory.contacts) }
+        match self.last_accelerations() {
+            Some(_) => self.carried(e),
+            None => self.reading().carried(e, |_| 0.0, &self.snapshot.state.memory.contacts),
+        }
+    }
+
+    /// Returns what the accelerations of the last step are, and what they are to be divided by;
+    /// `None` where none is known.
+    fn last_accelerations(&self) -> Option<(&[f64], f64)> {
+        let memory = &self.snapshot.state.memory;
+        let last = &memory.differences;
+        if memory.valid && memory.revision == self.revision {
+            return Some((&memory.acceleration, 1.0));
+        }
+        let is_known = !last.is_empty() && last.step > 0.0 && last.revision == self.revision;
+        is_known.then_some((&last.velocity[..], last.step))
     }
 
     /// Returns the moment in N m at a node between two elements where it is free to turn at a load

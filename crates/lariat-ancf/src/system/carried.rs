@@ -100,9 +100,14 @@ impl Reading<'_> {
         if !self.knows_forces() || self.model.is_at_eye(e) || contacts.iter().any(touches) {
             return false;
         }
-        let begin: f64 = self.model.elements[..e].iter().map(|element| element.length).sum();
+        let begin = self.begin(e);
         let (end, near) = (begin + self.model.elements[e].length, AT_NODE * self.model.length());
         !self.model.pulled_points().any(|s| s > begin + near && s < end - near)
+    }
+
+    /// Returns the arc length in m at which an element begins.
+    fn begin(&self, e: usize) -> f64 {
+        self.model.elements[..e].iter().map(|element| element.length).sum()
     }
 
     /// Returns the force in N of the strain of an element along its chord.
@@ -170,7 +175,7 @@ impl Reading<'_> {
         let of = |x: &[f64]| -> [Dual; 12] { core::array::from_fn(|i| constant(x[6 * e + i])) };
         let mut force = element_force(&self.system.forces, e, self.time, &of(self.q), &of(self.v)).map(|f| f.value);
         add_force(&mut force, 0, &mass::load_weights(length), &model.weight(&model.elements[e]));
-        let begin: f64 = model.elements[..e].iter().map(|element| element.length).sum();
+        let begin = self.begin(e);
         for load in model.effects.line_loads.iter().flat_map(|loads| &loads.0) {
             load.add_on(begin, length, &mut force);
         }

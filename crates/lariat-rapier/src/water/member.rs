@@ -205,10 +205,10 @@ impl Member {
             return None;
         }
         let mass = f64::from(body.mass());
+        let water = input.water.current(input.time, &centre) + sea.at(input.time, &centre).velocity;
         let (change, mut after) = if dry {
             (-self.added, velocity)
         } else {
-            let water = input.water.current(input.time, &centre) + sea.at(input.time, &centre).velocity;
             (self.added, (velocity * mass + water * self.added) / (mass + self.added))
         };
         if let Some(further) = self.further {
@@ -216,7 +216,6 @@ impl Member {
             if dry {
                 self.work -= energy(&velocity);
             } else {
-                let water = input.water.current(input.time, &centre) + sea.at(input.time, &centre).velocity;
                 let both = after * (mass + self.added) + further.at(&turn) * water;
                 after = further.mobility(mass + self.added, &turn) * both;
                 self.work += energy(&after);

@@ -101,7 +101,8 @@ impl Scene {
     /// Puts a cable that statics left in still water back into the wave.
     pub fn add_wave(&self, cable: &mut Cable, index: usize) -> Result<(), Error> {
         let (own, mut effects) = (&self.cables[index].effects, cable.effects().clone());
-        if let (Some(to), Some(from)) = (surface_of_drag(&mut effects), surface_of_drag(&mut own.clone())) {
+        let of_own = own.drag.as_ref().and_then(|drag| drag.flow.surface.as_deref());
+        if let (Some(to), Some(from)) = (surface_of_drag(&mut effects), of_own) {
             to.wave = from.wave;
         }
         if let (Some(to), Some(from)) = (&mut effects.buoyancy, &own.buoyancy) {

@@ -120,16 +120,13 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     }
 
     fn count(&mut self, event: Event) {
-        // the law of the whole is that of the first cable, and so is what is told of it
-        if event == Event::Unsolved {
-            self.cables[0].diagnostics_mut().unsolved_steps += 1;
-        }
-        for cable in self.cables.iter_mut() {
+        for (c, cable) in self.cables.iter_mut().enumerate() {
             let diagnostics = cable.diagnostics_mut();
             match event {
                 Event::Iterated(reason) => diagnostics.iterations_for.count(reason),
+                // the law of the whole is that of the first cable, and so is what is told of it
+                Event::Unsolved => diagnostics.unsolved_steps += u64::from(c == 0),
                 Event::Rescaled => diagnostics.rescaled_steps += 1,
-                Event::Unsolved => {}
                 Event::Divided(reason) => {
                     diagnostics.split_steps += 1;
                     diagnostics.divisions_for.count(reason);
