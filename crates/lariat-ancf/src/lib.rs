@@ -90,7 +90,7 @@ pub use cable::energy::{Energy, Momentum};
 pub use cable::mesh::{MeshIndicator, MotionIndicator};
 pub use cable::reactions::Reaction;
 pub use cable::sample::Sample;
-pub use cable::{Cable, ReelReading, Snapshot};
+pub use cable::{Cable, ReelReading, SharpBend, Snapshot};
 pub use diagnostics::Diagnostics;
 pub use effect::{
     AxialLaw, Buoyancy, CablePoint, Contact, Damping, Drag, EffectCounts, EffectWork, Effects, EndSpin, Flow,

@@ -2,7 +2,7 @@
 
 use lariat_ancf::study::{Claim, ForceClaim, Outcome, Quantity, Target};
 use lariat_scene::run::{Options, Recording, collect};
-use lariat_scene::scene::elements::Grading;
+use lariat_scene::scene::elements::{Fine, Grading};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 use std::path::Path;
 
@@ -65,7 +65,7 @@ fn finer(scene: &Scene, run: &Recording, times: usize, tighter: f64, coupled: bo
             let mut points = vec![0.0, own.length()];
             points.extend(scene.loads.iter().map(|load| load.load.arc_length));
             points.extend(scene.attachments.iter().map(|attachment| attachment.arc_length));
-            cable.grading = Some(Grading { finest: least / times as f64, points });
+            cable.fine = Fine::At(Grading { finest: least / times as f64, points });
         }
         if let Some(tolerance) = claim.tolerance_m {
             let resolution =

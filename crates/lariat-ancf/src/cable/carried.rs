@@ -42,7 +42,7 @@
 use super::Cable;
 use crate::rule::BendingRule;
 use crate::scales::cable::AT_NODE;
-use crate::scales::watch::{LAYER, ROOM};
+use crate::scales::watch::{CORNER, LAYER, ROOM};
 use crate::system::Carried;
 use nalgebra::Vector3;
 
@@ -56,6 +56,8 @@ pub(crate) struct Layer {
     pub scale: f64,
     /// Moment in N m: of the mesh, and of the elastica.
     pub moments: [f64; 2],
+    /// The part of that of the mesh in N m that its bending makes, `EI kappa`.
+    pub bent: f64,
     /// Force in N, and its share of EA.
     pub force: f64,
     pub strain: f64,
@@ -67,7 +69,87 @@ pub(crate) struct Layer {
     pub inside: bool,
 }
 
+impl Layer {
+    /// Returns the moment in N m that the force makes of the mesh: all but that of its bending at a
+    /// node, and at a load inside an element about what it would be at a node.
+    fn of_force(&self) -> f64 {
+        let [mesh, _] = self.moments;
+        if self.inside { CORNER * self.force * self.element * self.angle } else { mesh - self.bent }
+    }
+
+    /// Returns by how much the mesh has more of a moment than the elastica, over the force, in m.
+    pub fn lever(&self) -> f64 {
+        let [mesh, elastica] = self.moments;
+        ((if self.inside { self.of_force() } else { mesh }) - elastica) / self.force
+    }
+
+    /// Returns the length in m that the mesh loses on this side.
+    fn excess(&self) -> f64 {
+        (0.25 * self.angle).tan() * (2.0 * self.of_force() - self.moments[1]).max(0.0) / self.force
+    }
+}
+
+/// A place at which a cable bends within a piece that is shorter than its elements there: a clamp,
+/// a point load, or a point that a support, an attachment or a junction holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SharpBend {
+    /// Arc length in m.
+    pub arc_length: f64,
+    /// Length `sqrt(EI/T)` in m within which it bends, with the largest tension T there; 0 without
+    /// bending stiffness.
+    pub length: f64,
+    /// Length in m of the cable that goes lost there to the mesh, which is smooth where the cable
+    /// turns: as if the cable were shorter by it.
+    pub excess: f64,
+}
+
+impl SharpBend {
+    /// Adds what was read to bends, one for each place.
+    pub(crate) fn add_to(self, bends: &mut Vec<Self>) {
+        let at = self.arc_length;
+        match bends.iter_mut().find(|bend| (bend.arc_length - at).abs() <= AT_NODE * at.max(f64::MIN_POSITIVE)) {
+            Some(bend) => {
+                bend.length = bend.length.min(self.length);
+                bend.excess = bend.excess.max(self.excess);
+            }
+            None => bends.push(self),
+        }
+    }
+}
+
 impl Cable {
+    /// Returns where it bends more sharply than its elements can, by arc length, as it is now:
+    /// beside these places, positions converge with the first order of the elements. A mesh that is
+    /// fine there ([`CableBuilder::finest`](crate::CableBuilder::finest), `2 length`) does; without
+    /// bending stiffness, only a hinge.
+    ///
+    /// A force F that comes to the tangent at an angle theta turns an elastica with the energy `U =
+    /// 4 sqrt(EI F) (1 - cos(theta/2))`, which takes the length `dU/dF = tan(theta/4) M/F` of it, M
+    /// its moment. Of the moment that a mesh has instead, what is not `EI kappa` comes of the force
+    /// itself, with an energy of `2 tan(theta/4)` times that, of the first order in F: by so much
+    /// more length the mesh is short. A load inside an element takes about what it would at a node.
+    pub fn sharp_bends(&self) -> Vec<SharpBend> {
+        let mut bends: Vec<SharpBend> = Vec::new();
+        self.visit_layers(|layer| {
+            let (Layer { arc_length, scale: length, .. }, excess) = (layer, layer.excess());
+            match bends.last_mut().filter(|bend| bend.arc_length == arc_length) {
+                // the other side of it
+                Some(bend) => {
+                    bend.length = bend.length.min(length);
+                    bend.excess += excess;
+                }
+                None => bends.push(SharpBend { arc_length, length, excess }),
+            }
+        });
+        self.visit_inner_layers(|layer| {
+            let (Layer { arc_length, scale: length, .. }, excess) = (layer, 2.0 * layer.excess());
+            bends.push(SharpBend { arc_length, length, excess });
+        });
+        bends.sort_by(|a, b| a.arc_length.total_cmp(&b.arc_length));
+        bends
+    }
+
     /// Returns whether tension and moment at a node at an arc length in m are read by equilibrium:
     /// at an end, a support, a point load or a change of section.
     pub(super) fn is_read_by_equilibrium(&self, node: usize, s: f64) -> bool {
@@ -201,6 +283,7 @@ impl Cable {
                     element: element.length,
                     scale: (flexural / force).sqrt(),
                     moments: [moment.norm(), elastica],
+                    bent: self.sample_in(e, k as f64).moment.norm(),
                     force,
                     strain: force / element.section.axial_stiffness,
                     angle,
@@ -221,10 +304,7 @@ impl Cable {
             let element = &self.elements()[e];
             let flexural = element.section.bending_stiffness;
             let beside = [xi, 1.0 - xi].map(|share| share * element.length);
-            if beside.into_iter().any(|distance| distance <= near)
-                || flexural <= 0.0
-                || self.has_moment(load.arc_length)
-            {
+            if beside.into_iter().any(|distance| distance <= near) || self.has_moment(load.arc_length) {
                 continue;
             }
             let is_long = |tension: f64| tension * element.length.powi(2) > flexural;
@@ -238,11 +318,13 @@ impl Cable {
             }
             let angle = 0.5 * before.force.angle(&behind.force);
             let elastica = 2.0 * (flexural * force).sqrt() * (0.5 * angle).sin();
+            let mesh = self.sample_in(e, xi).moment.norm();
             visit(Layer {
                 arc_length: load.arc_length,
                 element: element.length,
                 scale: (flexural / force).sqrt(),
-                moments: [self.sample_in(e, xi).moment.norm(), elastica],
+                moments: [mesh, elastica],
+                bent: mesh,
                 force,
                 strain: force / element.section.axial_stiffness,
                 angle,

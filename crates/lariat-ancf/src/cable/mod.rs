@@ -72,6 +72,7 @@ use crate::system::{Buffers, StepVectors, System};
 use crate::watch::Watch;
 use as_laid::{AsDrawn, Sagging};
 pub(crate) use carried::Layer;
+pub use carried::SharpBend;
 pub(crate) use check::{check_integrator, check_torsion};
 use fearless_simd::Level;
 pub(crate) use layout::along_polyline;

@@ -26,20 +26,10 @@
 //! that of its mesh.
 
 use super::target::{Quantity, Target};
-use crate::cable::Cable;
+use crate::cable::{Cable, SharpBend};
 use crate::scales::study::{LEAST_LARGEST, MOST_LENGTH};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
-
-/// A place that a cable bends within a short piece at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct SharpBend {
-    /// Arc length in m.
-    pub arc_length: f64,
-    /// Length `sqrt(EI/T)` in m within which it bends, with the largest tension T there.
-    pub length: f64,
-}
 
 /// Values of a run.
 #[derive(Clone, Debug, Default)]
@@ -108,14 +98,7 @@ impl Forces {
         if quantity == Quantity::Tension {
             self.cables[index].largest = self.cables[index].largest.max(across);
         }
-        cable.visit_layers(|layer| {
-            let bends = &mut self.cables[index].bends;
-            let near = |bend: &&mut SharpBend| (bend.arc_length - layer.arc_length).abs() <= 1e-9 * cable.length();
-            match bends.iter_mut().find(near) {
-                Some(bend) => bend.length = bend.length.min(layer.scale),
-                None => bends.push(SharpBend { arc_length: layer.arc_length, length: layer.scale }),
-            }
-        });
+        cable.sharp_bends().into_iter().for_each(|bend| bend.add_to(&mut self.cables[index].bends));
     }
 
     /// Records what a cable carries at a point that is read.

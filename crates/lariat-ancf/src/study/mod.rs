@@ -76,8 +76,8 @@ mod runs;
 mod target;
 mod time;
 
+pub use crate::SharpBend;
 pub use claim::{Claim, ForceClaim, Outcome, Proof, StudyError};
-pub use forces::SharpBend;
 pub use record::Record;
 pub use runs::Resolution;
 pub use target::{InvalidTarget, Quantity, Target};

@@ -1,9 +1,10 @@
 //! What a run of a study records: positions by time, and the meshes and the work of its cables.
 
 use super::StudyError;
-use super::forces::{Forces, SharpBend};
+use super::forces::Forces;
 use super::target::{Quantity, Target};
 use crate::Sample;
+use crate::SharpBend;
 use crate::cable::Cable;
 use crate::point::Point;
 use crate::scales::study::{INDICATED, INDICATOR_ROUNDING, KINKS, RECORDED, SMOOTH, SURE};

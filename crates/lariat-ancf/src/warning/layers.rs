@@ -25,8 +25,8 @@ impl Layers {
     pub(super) fn note(&mut self, cable: &Cable) {
         let limit = ERROR * cable.length();
         let mut note = |layer: Layer| {
-            let Layer { arc_length: at, element, scale, moments, force, strain, angle, held, inside } = layer;
-            let [mesh, elastica] = moments;
+            let Layer { arc_length: at, element, scale, moments, strain, angle, held, inside, .. } = layer;
+            let [_, elastica] = moments;
             let bends = (held || inside) && 2.0 * (0.5 * angle).sin() > BENDS * strain.sqrt();
             // at a load inside an element the mesh has less
             let ratio =
@@ -35,7 +35,7 @@ impl Layers {
             if elastica > 0.0 && ratio(moments) > 1.0 + MOMENT && bends && self.moment.is_none_or(worse) {
                 self.moment = Some(CoarseMoment { at, moments, scale });
             }
-            let error = SMEARED * (mesh - elastica) / force;
+            let error = SMEARED * layer.lever();
             if error > limit && self.kink.is_none_or(|other| error > other.error) {
                 self.kink = Some(CoarseKink { at, error, element });
             }

@@ -94,7 +94,7 @@ enum Corner {
     /// A kink.
     Kink,
     /// Elements of `2 sqrt(EI/T)` at the load, which grow from there to those of the even mesh by about 2.
-    Fine,
+    Auto,
     /// Nothing.
     Even,
 }
@@ -108,17 +108,10 @@ fn row(share: f64, corner: Corner) -> Result<Vec<Cell>, Error> {
         0.0 => loaded("2048", &kink, 0.0)?,
         _ => loaded(&format!("{{ count = 640, finest = 0.002, at = [{LOADED:?}] }}"), "", bending)?,
     };
-    let fine = |n: usize| {
-        let finer = (LENGTH / (n as f64 * 2.0 * layer)).log2().ceil().max(0.0);
-        let (count, finest) = (n + 2 * finer as usize, 2.0 * layer);
-        // an even mesh of as many is as fine
-        let even = finest * count as f64 >= LENGTH;
-        if even { count.to_string() } else { format!("{{ count = {count}, finest = {finest:?}, at = [{LOADED:?}] }}") }
-    };
     let with = |n: &usize| {
         let (mesh, key) = match corner {
             Corner::Kink => (n.to_string(), &kink[..]),
-            Corner::Fine => (fine(*n), ""),
+            Corner::Auto => (format!("{{ count = {n}, finest = \"auto\" }}"), ""),
             Corner::Even => (n.to_string(), ""),
         };
         Ok(off(&loaded(&mesh, key, bending)?, &exact))
@@ -126,7 +119,7 @@ fn row(share: f64, corner: Corner) -> Result<Vec<Cell>, Error> {
     let errors: Vec<f64> = ELEMENTS.iter().map(with).collect::<Result<_, Error>>()?;
     let corner = match corner {
         Corner::Kink => "kink",
-        Corner::Fine => "fine there",
+        Corner::Auto => "auto",
         Corner::Even => "even",
     };
     let mut cells: Vec<Cell> = vec![share.into(), corner.into()];
@@ -163,18 +156,15 @@ pub fn section(options: &Options) -> Result<Section, Error> {
     section.table(Table { name: "moments", columns, rows });
     let mut rows = Vec::new();
     for share in options.rungs(&SHARES) {
-        // without stiffness no mesh resolves the corner
-        let corners = [Corner::Kink, Corner::Fine, Corner::Even].into_iter();
-        for corner in corners.filter(|corner| *share > 0.0 || !matches!(corner, Corner::Fine)) {
+        for corner in [Corner::Kink, Corner::Auto, Corner::Even] {
             rows.push(row(*share, corner)?);
         }
     }
     section.text(
-        "A cable with a point load, with a kink there (`kinks = [4.0]`), with a mesh that is fine there, and with an even one: largest error of \
-         five points in m, by elements of the whole cable, and the order between 4 and 16. Without EI (0) a kink gives the order of smooth \
-         cables; with EI it leaves out a moment, whose effect falls with sqrt(EI/T), here over the length of an element of eight. A mesh that \
-         is fine there has elements of 2 sqrt(EI/T) beside the load, and beside those of the even mesh as many as it takes to grow to their \
-         length by a ratio of 2: 16 more at most in this table.",
+        "A cable with a point load, with a kink there (`kinks = [4.0]`), with the mesh that statics choose (`elements = { count = 8, finest = \
+         \"auto\" }`), and with an even one: largest error of five points in m, by elements of the even mesh, and the order between 4 and 16. \
+         Without EI (0) a kink gives the order of smooth cables, and is what is chosen; with EI it leaves out a moment, whose effect falls with \
+         sqrt(EI/T), here over the length of an element of eight, and the mesh that is chosen has elements of 2 sqrt(EI/T) beside the load."
     );
     let columns = vec![
         shown("layer", "sqrt(EI/T)/h", Format::Fixed(2)),

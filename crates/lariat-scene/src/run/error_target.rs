@@ -5,6 +5,7 @@ use super::output::Output;
 use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
 use crate::scene::body::{BodyKind, BodyScene};
+use crate::scene::elements::Fine;
 use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::Vector3;
@@ -133,7 +134,7 @@ pub(super) fn conduct(
         for cable in &mut scene.cables {
             cable.elements = resolution.elements_of(cable.elements, largest);
             // few elements cannot be graded as many can
-            cable.grading = None;
+            cable.fine = Fine::Nowhere;
             // a load inside an element is nearer to the nodes of one mesh than to those of the next, and distances say nothing
             cable.nodes_at_loads = true;
             if purpose != Purpose::Static {

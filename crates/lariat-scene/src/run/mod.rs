@@ -34,6 +34,7 @@
 //! ```
 
 mod balance;
+mod coarse_tension;
 mod error_target;
 mod fine;
 mod hinges;
@@ -139,7 +140,7 @@ fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Option
             Err(Error::State { problem })
         }
         Some(target) => error_target::conduct(scene, open, purpose, target, options),
-        None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
+        None => Ok(simulate(fine::with_chosen(scene)?.as_ref(), open, purpose, options, None)?.finish(None)),
     }
 }
 
@@ -255,6 +256,10 @@ fn simulate(
     };
     let outcome = started.and_then(|()| {
         world.note_start();
+        if options.error.is_none() && (purpose == Purpose::Static || scene.equilibrium && options.from.is_none()) {
+            let off = coarse_tension::warnings(&world, purpose);
+            world.warnings.extend(off);
+        }
         if purpose != Purpose::Static {
             watch = Watch::new(&world, purpose);
         }

@@ -2,7 +2,7 @@
 
 use super::breaking::{self, BREAK, BreakScene};
 use super::effects::{self, EFFECTS};
-use super::elements::{ELEMENTS, ElementsTable, Grading};
+use super::elements::{ELEMENTS, ElementsTable, Fine};
 use super::integrator::{self, IntegratorTable};
 use super::reel::{self, DrumScene, DrumTable, REEL};
 use super::references::{Position, arc_length};
@@ -123,8 +123,8 @@ pub struct CableScene {
     pub equilibrium: bool,
     /// Number of elements.
     pub elements: usize,
-    /// Where they are fine, if anywhere.
-    pub grading: Option<Grading>,
+    /// Where they are fine.
+    pub fine: Fine,
     /// Whether nodes are at point loads, where the third derivative of the shape jumps, as they are at attachments.
     pub nodes_at_loads: bool,
     /// Arc lengths in m of kinks, until it is divided there.
@@ -216,7 +216,7 @@ pub(super) fn read(
         lead: 0.0,
         equilibrium: row.initial == Initial::Equilibrium,
         elements: row.elements.count() as usize,
-        grading: row.elements.grading(doc, &at.key("elements"), length)?,
+        fine: row.elements.grading(doc, &at.key("elements"), length)?,
         nodes_at_loads: false,
         kinks,
         sections,

@@ -17,18 +17,65 @@
 //!
 //! A node with one position and two slopes: docs/decisions/elements.md, carried.rs.
 
-use super::attachment::AttachmentScene;
+use super::Scene;
+use super::attachment::{AttachmentKind, AttachmentScene, AttachmentTable};
 use super::cable::CableScene;
-use super::elements::Grading;
-use super::junction::JunctionScene;
+use super::elements::{Fine, Grading};
+use super::junction::{JunctionScene, JunctionTable};
+use super::load::LoadTable;
 use super::passing::part;
-use super::{Scene, references::unique};
+use super::references::{arc_length, unique};
 use crate::document::{Document, KeyPath};
 use crate::error::{Error, Problem};
 use lariat_ancf::Vector3;
 
 /// A kink: the parts of a cable before and behind it, positions in [`Scene::cables`].
 pub type Kink = [usize; 2];
+
+/// What can turn a cable at a point, as a scene writes it.
+pub(super) struct Turning<'a> {
+    pub loads: &'a [LoadTable],
+    pub junctions: &'a [JunctionTable],
+    pub attachments: &'a [AttachmentTable],
+}
+
+/// Finds the kinks of the cables whose mesh [statics choose](Fine::ByStatics): of those without bending stiffness, all points between the ends
+/// where a load, a junction or a ball attachment can turn them. None where a kink is refused; there statics choose short elements.
+pub(super) fn find(doc: &Document<'_>, scene: &mut Scene, turning: &Turning<'_>) -> Result<(), Error> {
+    for (c, cable) in scene.cables.iter_mut().enumerate() {
+        let limp = cable.fine == Fine::ByStatics && cable.sections.iter().all(|(_, own)| own.bending_stiffness == 0.0);
+        let touches_itself = cable.effects.contact.is_some_and(|contact| contact.itself);
+        if !limp || scene.parts[c].len() > 1 || cable.effects.torsion.is_some() || touches_itself || cable.equilibrium {
+            continue;
+        }
+        let (name, length) = (&cable.name, cable.length);
+        let at = |key: &str, row: usize, at: &str| KeyPath::root(key).item(row).key(at);
+        let mut points = Vec::new();
+        for (row, load) in turning.loads.iter().enumerate() {
+            let is_own = load.cable.as_ref() == Some(name) && load.force.is_some_and(|force| force != Vector3::zeros());
+            points.extend(load.at.filter(|_| is_own).map(|point| (at("load", row, "at"), point)));
+        }
+        for (row, junction) in turning.junctions.iter().enumerate() {
+            let ends = [(&junction.cable, "at", junction.at), (&junction.other, "other_at", junction.other_at)];
+            let own = ends.into_iter().filter(|(cable, ..)| *cable == name);
+            points.extend(own.map(|(_, key, point)| (at("junction", row, key), point)));
+        }
+        for (row, attachment) in turning.attachments.iter().enumerate() {
+            let is_own = attachment.cable == *name && attachment.kind == AttachmentKind::Ball;
+            points.extend(is_own.then(|| (at("attachment", row, "at"), attachment.at)));
+        }
+        let near = 1e-6 * length;
+        let given = core::mem::take(&mut cable.kinks);
+        let found = points.iter().map(|(key, point)| arc_length(doc, key, *point, length));
+        let mut kinks = given.into_iter().map(Ok).chain(found).collect::<Result<Vec<_>, _>>()?;
+        let cut = cable.breaking.cut.map(|(_, s)| s);
+        kinks.retain(|s| *s > near && *s < length - near && cut.is_none_or(|cut| (s - cut).abs() > near));
+        kinks.sort_by(f64::total_cmp);
+        kinks.dedup_by(|a, b| *a - *b <= near);
+        cable.kinks = kinks;
+    }
+    Ok(())
+}
 
 /// Divides the cables of the scene at their kinks.
 pub(super) fn divide(doc: &Document<'_>, scene: &mut Scene) -> Result<(), Error> {
@@ -93,7 +140,7 @@ fn split(scene: &mut Scene, c: usize, kinks: &[f64]) {
         let [from, to] = [between[0], between[1]];
         let part = CableScene {
             elements: ((own.elements as f64 * (to - from) / own.length).round() as usize).max(1),
-            grading: grading(&own, [from, to]),
+            fine: fine(&own, [from, to]),
             ..part(&own, [from, to], drawn(&own, [from, to]), [k == 0, k == last])
         };
         if k == 0 {
@@ -132,13 +179,13 @@ fn drawn(own: &CableScene, [from, to]: [f64; 2]) -> Vec<Vector3<f64>> {
     points
 }
 
-/// Returns the grading of a part, if some of its points are on it and its elements are not as short already.
-fn grading(own: &CableScene, [from, to]: [f64; 2]) -> Option<Grading> {
-    let grading = own.grading.as_ref()?;
+/// Returns the mesh of a part: graded if some of the points are on it and its elements are not as short already.
+fn fine(own: &CableScene, [from, to]: [f64; 2]) -> Fine {
+    let Fine::At(grading) = &own.fine else { return own.fine.clone() };
     let on_part = grading.points.iter().filter(|s| (from..=to).contains(*s)).map(|s| s - from);
     let points: Vec<f64> = on_part.collect();
     let graded = !points.is_empty() && grading.finest * (own.elements as f64) < own.length;
-    graded.then_some(Grading { finest: grading.finest, points })
+    if graded { Fine::At(Grading { finest: grading.finest, points }) } else { Fine::Nowhere }
 }
 
 /// Joins the parts at each kink: by an attachment of both where one holds the cable, by a junction elsewhere.

@@ -205,10 +205,7 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         return Err(doc.conflict(&root.key("dt"), format!("{dt} s makes {:.3e} steps", duration / dt)));
     }
     if engine == Engine::Rapier {
-        if f64::from(dt as f32) < f64::from(f32::MIN_POSITIVE) * 1e3 {
-            return Err(doc.conflict(&root.key("dt"), format!("{dt} s is too short for Rapier, in single precision")));
-        }
-        doc.check_single(&root.key("gravity"), &table.gravity)?;
+        check_single(doc, dt, &table.gravity)?;
     }
     if table.cable.is_empty() {
         return Err(doc.missing(&root.key("cable")));
@@ -259,6 +256,14 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
         scene.joints.push(row);
     }
     let (mut along, at_sheaves) = passing::divide(doc, &mut scene, &table.sheave)?;
+    if table.engine != Some(Engine::None) {
+        let (loads, junctions, attachments) = (&table.load, &table.junction, &table.attachment);
+        kinks::find(doc, &mut scene, &kinks::Turning { loads, junctions, attachments })?;
+        if scene.cables.iter().any(|cable| !cable.kinks.is_empty()) && engine == Engine::None {
+            scene.engine = Engine::Rapier;
+            check_single(doc, dt, &scene.gravity)?;
+        }
+    }
     kinks::divide(doc, &mut scene)?;
     for (i, row) in table.attachment.into_iter().enumerate() {
         let row = attachment::read(doc, &scene, i, row)?;
@@ -290,6 +295,15 @@ pub(crate) fn check(doc: &Document<'_>, fallback: &str, folder: &Path, purpose: 
     reel::check_eyes(doc, &scene)?;
     elements::check_eyes(doc, &scene)?;
     Ok(scene)
+}
+
+/// Refuses what Rapier's single precision cannot hold.
+fn check_single(doc: &Document<'_>, dt: f64, gravity: &Vector3<f64>) -> Result<(), Error> {
+    let root = KeyPath::default();
+    if f64::from(dt as f32) < f64::from(f32::MIN_POSITIVE) * 1e3 {
+        return Err(doc.conflict(&root.key("dt"), format!("{dt} s is too short for Rapier, in single precision")));
+    }
+    doc.check_single(&root.key("gravity"), gravity)
 }
 
 /// Returns the engine; without the key, bodies, junctions, sheaves and contact of cables with cables choose Rapier.

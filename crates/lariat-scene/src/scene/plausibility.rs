@@ -9,6 +9,7 @@
 //! `lariat_ancf::warning::sizes`.
 
 use super::body::{BodyKind, BodyMass, BodyScene, BodyShape};
+use super::elements::Fine;
 use super::load::LoadScene;
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
@@ -284,7 +285,10 @@ fn radius(body: &BodyScene) -> f64 {
 fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
     let (name, length) = (&cable.name, cable.length);
     let drawn = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
-    let element = cable.grading.as_ref().map_or(length / cable.elements as f64, |grading| grading.finest);
+    let element = match &cable.fine {
+        Fine::At(grading) => grading.finest,
+        Fine::Nowhere | Fine::ByStatics => length / cable.elements as f64,
+    };
     let of_section = move |(_, section): &(f64, Section)| -> Vec<_> {
         sizes::warnings(name, section, length).chain(sizes::elements(name, section, length, element)).collect()
     };

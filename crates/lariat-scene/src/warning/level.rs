@@ -34,6 +34,7 @@ impl Warning {
             | Warning::NoConvergence { .. }
             | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
+            | Warning::CoarseTension { .. }
             | Warning::UnstableEquilibrium { .. } => Level::Wrong,
             Warning::StiffKink { .. } | Warning::EnergyLost { .. } => Level::Coarse,
         }
@@ -48,6 +49,7 @@ impl Warning {
             | Warning::OpenGap { cable, .. }
             | Warning::Unsettled { cable, .. }
             | Warning::StiffKink { cable, .. }
+            | Warning::CoarseTension { cable, .. }
             | Warning::RankDeficient { cable, .. }
             | Warning::UnstableEquilibrium { cable, .. }
             | Warning::VelocityJump { cable, .. }
@@ -97,6 +99,7 @@ impl Judged for Warning {
             | Warning::WheelTurned { .. }
             | Warning::UnfinishedRamp { .. }
             | Warning::StiffKink { .. }
+            | Warning::CoarseTension { .. }
             | Warning::NoConvergence { .. }
             | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
@@ -151,6 +154,7 @@ impl Judged for Warning {
             Warning::LightWater { density_kg_m3 } => -density_kg_m3,
             Warning::ManyTurns { angle_rad, .. } => *angle_rad,
             Warning::StiffKink { error_m, .. } => *error_m,
+            Warning::CoarseTension { share, .. } => *share,
             Warning::AddedMassInAir { share, .. } => *share,
             Warning::FarFromOrigin { distance_m, .. } => *distance_m,
             Warning::FastSpin { turn_rad, .. } => *turn_rad,

@@ -115,6 +115,25 @@ pub enum Warning {
         /// Time in s.
         time_s: f64,
     },
+    /// A tension in equilibrium that is off because the mesh is smooth where the cable turns.
+    #[error(
+        "cable {cable:?}: its tension at {at_m:.4} m is {tension_n:.4e} N, and {fine_n:.4e} N on a mesh that is fine where it turns at loads and what holds \
+         it, {:.0} % of the largest: take `elements = {{ count = {elements}, finest = \"auto\" }}`", 100.0 * .share
+    )]
+    CoarseTension {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m.
+        at_m: f64,
+        /// Tension there in N.
+        tension_n: f64,
+        /// Tension in N on the finer mesh.
+        fine_n: f64,
+        /// Their difference over the largest tension of the cable.
+        share: f64,
+        /// Its number of elements.
+        elements: usize,
+    },
     /// A kink of a cable that is too stiff for a hinge.
     #[error(
         "cable {cable:?}: its kink at {at_m:.4} m leaves out the moment there, within {layer_m:.1e} m of it, which puts points up to {error_m:.1e} m off at \

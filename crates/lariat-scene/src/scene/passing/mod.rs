@@ -7,6 +7,7 @@ mod wheel;
 mod whole;
 
 use super::attachment::AttachmentScene;
+use super::elements::Fine;
 use super::references::{arc_length, body_or_world, cable, unique};
 use super::sheave::SheaveTable;
 use super::{CableScene, Scene};
@@ -69,7 +70,7 @@ pub(super) fn divide(
         }
     }
     for (c, mut passages) in by_cable.into_iter().enumerate().filter(|(_, passages)| !passages.is_empty()) {
-        if scene.cables[c].grading.is_some() {
+        if scene.cables[c].fine != Fine::Nowhere {
             let at = KeyPath::root("cable").item(c).key("elements");
             return Err(doc.conflict(&at, "a cable over sheaves along it has even elements"));
         }
