@@ -104,7 +104,7 @@ impl RopeMaterial {
         let area = mass / solid;
         let mut section = Section::from_stiffness(axial, 0.0, mass)?;
         let outer = if self == RopeMaterial::Chain { (4.0 * area / std::f64::consts::PI).sqrt() } else { diameter };
-        (section.diameter, section.outer_area) = (Some(outer), Some(area));
+        (section.diameter, section.outer_area, section.rope) = (Some(outer), Some(area), true);
         Ok(section)
     }
 

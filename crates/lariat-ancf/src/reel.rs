@@ -84,7 +84,8 @@ impl Reel {
     }
 
     /// A reel that comes to a length of cable (m) that is out, with at most a rate (m/s), and stops
-    /// there.
+    /// there. It speeds up and slows down with its acceleration, 2 m/s^2 unless that is set, and so
+    /// does not come to the rate on ways that are shorter than rate^2/acceleration.
     pub fn to_length(length: f64, rate: f64) -> Self {
         Reel { to_length: Some(length), ..Self::with_rate(rate) }
     }

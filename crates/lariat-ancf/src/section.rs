@@ -32,6 +32,11 @@ pub struct Section {
     /// Young's modulus in Pa, if a shape was given: for [warnings](crate::warning).
     #[serde(default)]
     pub youngs_modulus: Option<f64>,
+    /// Whether it is that of a rope or chain: its EA is force over elongation, and it folds rather
+    /// than be pushed. A cable of such sections has the axial law [`Rope`](crate::AxialLaw::Rope),
+    /// unless it has another one.
+    #[serde(default)]
+    pub rope: bool,
 }
 
 /// One element: unstretched length in m and section.
@@ -134,6 +139,7 @@ impl Section {
             Self::from_stiffness(1.0e11 * metal, 2.06e11 * metal * wire * wire / 16.0, 4.09e3 * diameter * diameter)?;
         section.diameter = Some(diameter);
         section.outer_area = Some(Shape::Round(diameter).area());
+        section.rope = true;
         Ok(section)
     }
 
@@ -185,6 +191,7 @@ impl Section {
             diameter: None,
             outer_area: None,
             youngs_modulus: None,
+            rope: false,
         }
         .checked()
     }

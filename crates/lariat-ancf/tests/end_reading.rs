@@ -245,7 +245,7 @@ fn a_smeared_kink_is_told_with_its_error() {
         let builder = builder.section(section).elements(elements).fix(At::Start).fix(At::End);
         let builder = builder.load(PointLoad::force(5.0, [0.0, -1000.0, 0.0]));
         // inside an element with an odd number
-        if elements % 2 == 0 { builder.node_at(5.0) } else { builder }
+        if elements.is_multiple_of(2) { builder.node_at(5.0) } else { builder }
     };
     // EA (f^2 - 1)/2 f sin = P/2, f = sqrt(1 + y^2)
     let force = |y: f64| 1e6 * 0.5 * y * y * y;

@@ -40,7 +40,7 @@ pub enum Event {
         /// The gap.
         gap: OpenGap,
     },
-    /// A body on joints did not move as predicted for half a second: the forces of its cables are
+    /// A body on joints did not move as predicted for a second: the forces of its cables are
     /// not to be trusted. Once for each attachment; the warning
     /// [`Unsettled`](crate::Warning::Unsettled) says what to do.
     Unsettled {

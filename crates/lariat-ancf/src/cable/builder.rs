@@ -46,8 +46,6 @@ pub struct CableBuilder {
     /// Length in m of the finest elements, and the points where they are.
     grading: Option<(f64, Vec<At>)>,
     sections: Vec<(f64, Section)>,
-    /// Whether a section is that of a rope by name.
-    by_name: bool,
     nodes_at: Vec<f64>,
     rule: Option<Rule>,
     allow_rank_deficient: bool,
@@ -72,7 +70,6 @@ impl Default for CableBuilder {
             elements: 10,
             grading: None,
             sections: Vec::new(),
-            by_name: false,
             nodes_at: Vec::new(),
             rule: None,
             allow_rank_deficient: false,
@@ -156,14 +153,13 @@ impl CableBuilder {
     }
 
     /// Section of the whole cable by name: that of a rope or chain of this material and nominal
-    /// diameter in m. Its EA is force over elongation, as catalogues have it, so its axial law is
-    /// Hooke's, unless the [effects](Self::effects) have one, or what no law goes with: a rest
-    /// stretch or a torque of tension.
+    /// diameter in m. Its EA is force over elongation, as catalogues have it, and it cannot push:
+    /// its axial law is [`AxialLaw::Rope`], unless the [effects](Self::effects) have one, or what
+    /// no law goes with: a rest stretch or a torque of tension.
     ///
     /// # Errors
     /// As [`RopeMaterial::section`].
-    pub fn rope(mut self, material: RopeMaterial, diameter: f64) -> Result<Self, Error> {
-        self.by_name = true;
+    pub fn rope(self, material: RopeMaterial, diameter: f64) -> Result<Self, Error> {
         Ok(self.section(material.section(diameter)?))
     }
 
@@ -372,8 +368,8 @@ impl CableBuilder {
             let limp = rule.bending == BendingRule::None;
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
         }
-        if self.by_name && self.effects.axial_law.is_none() {
-            self.effects.axial_law = AxialLaw::of_elongation(&self.effects, rule);
+        if sections.iter().all(|(_, section)| section.rope) && self.effects.axial_law.is_none() {
+            self.effects.axial_law = AxialLaw::of_rope(&self.effects, rule);
         }
         let mut laid = layout::along_polyline(&self.points, &s, self.gravity);
         let kept = self.kept(&s, arc_length)?;

@@ -163,7 +163,7 @@ pub enum Warning {
     #[error(
         "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {percent:.1} % of EA = {axial_stiffness_n:.3e} N: the law (Green's strain) \
          holds for small strain and is stiffer than Hooke's beyond; check Young's modulus (Pa), section (m), masses (kg) and length, or \
-         add to EA",
+         take the law of Hooke or of a rope, whose EA is force over elongation",
         percent = 100.0 * .tension_n / .axial_stiffness_n
     )]
     LargeStrain {

@@ -77,7 +77,8 @@ impl Watch {
 
     /// Reads the cable at a host time, once at each.
     pub fn note(&mut self, cable: &Cable) {
-        if self.noted.replace(cable.time()) == Some(cable.time()) {
+        let before = self.noted.replace(cable.time());
+        if before == Some(cable.time()) {
             return;
         }
         let shape = cable.mesh_indicator();
@@ -91,10 +92,7 @@ impl Watch {
             self.motion = self.motion.max(motion.error.min(shape.position));
             self.displacement = self.displacement.max(motion.displacement);
         }
-        let ratio = cable.reels().map(|reel| reel.speed_ratio).fold(0.0, f64::max);
-        if ratio.is_finite() && ratio > self.reel.0 {
-            self.reel = (ratio, cable.time());
-        }
+        self.note_reels(cable, before.map_or(0.0, |before| cable.time() - before));
         let (share, tension, stiffness) = cable.largest_strain();
         if share > self.tension[0] {
             self.tension = [share, tension, stiffness, cable.time()];
@@ -207,6 +205,21 @@ impl Watch {
             let enough_s = step_s * (0.5 * limit / error_m).sqrt();
             Warning::LongSteps { cable: cable.name().to_string(), time_s, error_m, step_s, enough_s }
         })
+    }
+
+    /// Reads the reels, a time in s after the last reading. One is fast if it is so while a
+    /// transverse wave crosses the cable: on a rope that is slack for a moment none does.
+    fn note_reels(&mut self, cable: &Cable, passed: f64) {
+        let reels = cable.reels().map(|reel| [reel.speed_ratio, reel.rate.abs()]);
+        let [ratio, rate] = reels.fold([0.0; 2], |a, b| if b[0] > a[0] { b } else { a });
+        if !(ratio > REEL && ratio.is_finite()) {
+            self.crossings = 0.0;
+            return;
+        }
+        self.crossings += passed * rate / ratio / cable.length();
+        if self.crossings >= 1.0 && ratio > self.reel.0 {
+            self.reel = (ratio, cable.time());
+        }
     }
 
     fn fast_reel(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {

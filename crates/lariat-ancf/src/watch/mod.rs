@@ -53,6 +53,9 @@ pub struct Watch {
     pub(crate) tension: [f64; 4],
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     pub(crate) reel: (f64, f64),
+    /// How often transverse waves crossed the cable since a reel has been as fast.
+    #[serde(default)]
+    pub(crate) crossings: f64,
     /// Largest |M| l/EI of an element.
     #[serde(default)]
     pub(crate) twist: f64,

@@ -210,6 +210,38 @@ fn a_string_at_half_the_speed_of_its_waves_is_told() {
     assert!(!told(0.2, Damping { axial: 1e-4, bending: 0.0 }));
 }
 
+/// A rope that is slack for a moment has no waves that a reel could outrun: a load that a reel pulls in and that flies towards it is not told.
+///
+/// *Source.* The waves of a slack rope stand still.
+#[test]
+fn a_rope_that_is_slack_for_a_moment_outruns_no_wave() {
+    for speed in [1.0, 3.0, 6.0] {
+        let mut cable = Cable::builder()
+            .points([Vector3::zeros(), Vector3::new(0.0, -5.0, 0.0)])
+            .section(Section::from_stiffness(1.0e5, 0.01, 0.1).unwrap())
+            .elements(10)
+            .damping(Damping { axial: 1e-3, bending: 0.0 })
+            .fix(At::Start)
+            .fidelity(lariat_ancf::Fidelity::Game)
+            .build()
+            .unwrap();
+        // the end is thrown up
+        let (q, mut v) = (cable.positions().to_vec(), cable.velocities().to_vec());
+        (0..cable.nodes()).for_each(|node| v[6 * node + 1] = speed * node as f64 / 10.0);
+        cable.set_coordinates(&q, &v).unwrap();
+        cable.add_reel(At::Start, Reel::to_length(4.0, 2.0)).unwrap();
+        cable.set_watched(true);
+        let mut fastest = 0.0f64;
+        for _ in 0..120 {
+            cable.step(1.0 / 60.0).unwrap();
+            fastest = fastest.max(cable.reel(At::Start).unwrap().speed_ratio);
+        }
+        let told = cable.warnings().iter().any(|warning| matches!(warning, Warning::FastReel { .. }));
+        println!("{speed} m/s: up to {fastest:.2}, told {told}");
+        assert!(fastest > 0.3 && !told, "{fastest}");
+    }
+}
+
 /// Two reels take a cable in until their elements meet, and pay it out again; a cable of one element has no room for two.
 #[test]
 fn two_reels_stop_before_each_other() {

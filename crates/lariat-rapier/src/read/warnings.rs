@@ -43,7 +43,8 @@ pub enum Warning {
     /// A cable runs through a collider of a body that it is not attached to, or, with contact, of
     /// one that it is attached to, beyond what the attachment itself needs.
     #[error(
-        "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider{}; check the points of the cable and the place of the collider",
+        "cable {name:?}: at {arc_length:.4} m it is {depth:.2e} m inside a collider{}; begin in its equilibrium among what it can touch (`equilibrium_among`), or check \
+         its points and the place of the collider",
         if *.own {
             " of a body that it is attached to: contact holds it there, squeezed, and with any force until it is out"
         } else {

@@ -2,7 +2,7 @@
 
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::scales::set::ROPE_DAMPING;
-use lariat_ancf::{At, Cable, Damping, Fidelity, Point, Section, Vector3};
+use lariat_ancf::{At, Cable, Damping, Fidelity, Point, RopeMaterial, Section, Vector3};
 use rapier::math::Vector;
 
 /// What a rope is made of, how slack it is, and what it bears: the description of the usual rope,
@@ -29,7 +29,8 @@ pub struct Rope {
 }
 
 impl Rope {
-    /// A rope of this section.
+    /// A rope of this section. It cannot push, whatever the section: its axial law is
+    /// [`AxialLaw::Rope`](lariat_ancf::AxialLaw::Rope).
     pub fn new(section: Section) -> Self {
         Self::of(Ok(section))
     }
@@ -37,6 +38,11 @@ impl Rope {
     /// A steel wire rope of this diameter (m): [`Section::wire_rope`].
     pub fn steel(diameter: f64) -> Self {
         Self::of(Section::wire_rope(diameter))
+    }
+
+    /// A rope or chain of this material and nominal diameter (m): [`RopeMaterial::section`].
+    pub fn named(material: RopeMaterial, diameter: f64) -> Self {
+        Self::of(material.section(diameter))
     }
 
     fn of(section: Result<Section, lariat_ancf::Error>) -> Self {
@@ -100,7 +106,7 @@ impl Rope {
         fidelity: Fidelity,
     ) -> Result<Cable, lariat_ancf::Error> {
         let length = self.length(&from.point, &to.point);
-        let section = self.section.clone()?;
+        let section = Section { rope: true, ..self.section.clone()? };
         let wave_speed = (section.axial_stiffness / section.mass_per_length).sqrt();
         let mut builder = Cable::builder()
             .name(self.name.as_str())

@@ -9,14 +9,7 @@ use lariat_rapier::{AttachmentHandle, AttachmentKind, CableSet};
 
 /// Returns EA = 1e5 N, 0.1 kg/m, EI = 0.05 N m^2, with internal friction.
 fn rope(from: [f64; 3], to: [f64; 3]) -> CableBuilder {
-    let section = Section {
-        axial_stiffness: 1e5,
-        bending_stiffness: 0.05,
-        mass_per_length: 0.1,
-        diameter: None,
-        outer_area: None,
-        youngs_modulus: None,
-    };
+    let section = Section::from_stiffness(1e5, 0.05, 0.1).unwrap();
     cable(from, to, section).damping(Damping { axial: 1e-3, bending: 1e-3 })
 }
 

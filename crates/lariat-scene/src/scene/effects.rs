@@ -86,12 +86,7 @@ macro_rules! generate {
             mut rows: toml::Table,
             cable: &Context<'_>,
         ) -> Result<Effects, Error> {
-            let mut effects = Effects { $($field: one(doc, &at.key($key), rows.remove($key), cable)?),* };
-            // catalogues of ropes have force over elongation
-            if cable.sections.are_ropes() && effects.axial_law.is_none() {
-                effects.axial_law = AxialLaw::of_elongation(&effects, cable.rule);
-            }
-            Ok(effects)
+            Ok(Effects { $($field: one(doc, &at.key($key), rows.remove($key), cable)?),* })
         }
     };
 }
@@ -530,7 +525,7 @@ table! {
 
 impl SceneEffect for AxialLaw {
     const KIND: Kind = Kind::Either(&[Kind::Choice(LawName::names), Kind::Table(&CURVE)]);
-    const WITHOUT: &'static str = "the Green law of the paper; Hooke's of a rope or chain by name";
+    const WITHOUT: &'static str = "the Green law of the paper; `\"rope\"` of a rope or chain by name";
 
     fn check(&self, _: &Document<'_>, _: &KeyPath, _: &Context<'_>) -> Result<(), Error> {
         Ok(())

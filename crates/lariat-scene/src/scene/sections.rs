@@ -9,9 +9,8 @@ use serde::Deserialize;
 
 table! {
     /// A solid section of one material, or a rope or chain by its nominal diameter, with mass, EA and no EI as catalogues have them
-    /// (`RopeMaterial` of lariat-ancf names the sources). The `axial_law` of a rope or chain by name is Hooke's, unless it has another one,
-    /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation. It pushes where it is compressed;
-    /// `axial_law = "rope"` does not.
+    /// (`RopeMaterial` of lariat-ancf names the sources). The `axial_law` of a rope or chain by name is `"rope"`, unless it has another one,
+    /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation, and it folds rather than be pushed.
     keys SECTION("[cable.section]") {
         /// Side of a square.
         square = (), Kind::Number(POSITIVE), "m";
@@ -75,11 +74,6 @@ impl SectionForm {
             SectionForm::Chain(diameter) => Form::Rope(RopeMaterial::Chain, diameter),
         }
     }
-
-    /// Returns whether it is a rope or chain by name.
-    fn is_rope(self) -> bool {
-        matches!(self.form(), Form::Rope(..))
-    }
 }
 
 table! {
@@ -128,8 +122,6 @@ impl From<&PieceTable> for SectionKeys {
 pub struct Sections {
     /// The arc length in m at which each begins, ascending from 0.
     list: Vec<(f64, Section)>,
-    /// Whether all are of ropes or chains by name, whose EA is force over elongation.
-    ropes: bool,
 }
 
 impl Sections {
@@ -141,11 +133,6 @@ impl Sections {
     /// Returns the last one.
     pub fn last(&self) -> &Section {
         &self.list[self.list.len() - 1].1
-    }
-
-    /// Returns whether all are of ropes or chains by name, whose EA is force over elongation.
-    pub fn are_ropes(&self) -> bool {
-        self.ropes
     }
 
     /// Returns that at an arc length in m.
@@ -182,7 +169,7 @@ impl Sections {
         let before = self.list.iter().filter(|(start, _)| *start <= from).count().saturating_sub(1);
         let own = self.list[before..].iter().filter(|(start, _)| *start < to);
         let list = own.map(|(start, section)| ((start - from).max(0.0), *section)).collect();
-        Sections { list, ropes: self.ropes }
+        Sections { list }
     }
 }
 
@@ -202,8 +189,7 @@ pub(super) fn read(
         }
         list.push((from, section(doc, &row, piece.into())?));
     }
-    let mut forms = pieces.iter().map(|piece| piece.section).chain([own.section]);
-    Ok(Sections { list, ropes: forms.all(|form| form.is_some_and(SectionForm::is_rope)) })
+    Ok(Sections { list })
 }
 
 fn section(doc: &Document<'_>, at: &KeyPath, row: SectionKeys) -> Result<Section, Error> {

@@ -37,8 +37,10 @@
 //!
 //! - Hooke as the default: engineering strain differs from Green's law by 3/2 of the strain (0.15 %
 //!   of the tension at 0.1 %), costs more per element, and changes every result that is compared
-//!   with the paper. It is asked for by name, and that of ropes whose section is [named by
-//!   material](crate::CableBuilder::rope): their EA is force over elongation.
+//!   with the paper. It is asked for by name.
+//! - Hooke for ropes whose section is [named by material](crate::CableBuilder::rope), whose EA is
+//!   force over elongation: it pushes. A crate of 500 kg that lands on 19 m of straight steel rope
+//!   was pushed with 8 kN: in steps of 1/240 s the rope takes longer to buckle than to be let down.
 //! - The law at the points of the rule: with raw strain a bent element locks.
 
 mod spline;
@@ -78,13 +80,14 @@ pub enum AxialLaw {
 }
 
 impl AxialLaw {
-    /// Returns the law of a rope whose EA is force over elongation: Hooke's; `None` beside effects
-    /// and rules that no law goes with.
-    pub fn of_elongation(effects: &Effects, rule: Rule) -> Option<Self> {
+    /// Returns the law of a rope or chain whose EA is force over elongation, and which folds where
+    /// it would be pushed: [`AxialLaw::Rope`]; `None` beside effects and rules that no law goes
+    /// with.
+    pub fn of_rope(effects: &Effects, rule: Rule) -> Option<Self> {
         let stretched = effects.rest_shape.as_ref().is_some_and(RestShape::is_stretched);
         let stranded = effects.torsion.as_ref().and_then(Strands::of).is_some();
         let coarse = matches!(rule.axial, AxialRule::Gauss(points) if points < LEAST_POINTS);
-        (!stretched && !stranded && !coarse).then_some(AxialLaw::Hooke)
+        (!stretched && !stranded && !coarse).then_some(AxialLaw::Rope)
     }
 
     /// Returns whether it is another one than that of the elements.
