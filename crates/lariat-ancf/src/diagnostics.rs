@@ -50,7 +50,8 @@ pub struct Diagnostics {
     /// Steps of the discrete gradient that were divided to keep its energy law.
     #[serde(default)]
     pub split_steps: u64,
-    /// Steps of the discrete gradient in which centre lines of cables went through each other.
+    /// Steps of the discrete gradient in which centre lines of cables went through each other, or
+    /// through thin parts of obstacles.
     #[serde(default)]
     pub crossed_steps: u64,
     /// Steps of the discrete gradient at the end of which it touched another cable or itself.

@@ -4,7 +4,7 @@ mod common;
 
 use common::Random;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::warning::fold;
+use lariat_ancf::warning::{Passage, Through, fold};
 use lariat_ancf::{
     At, AxialLaw, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, Level, Method, PointLoad,
     RopeMaterial, Section, StepControl, Vector3, Warning,
@@ -361,7 +361,11 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::SlowReel { cable: cable(), asked_m: 5.0, given_m: 2.0, rate_m_s: 5.0, acceleration_m_s2: 2.0 },
         Warning::UnseenLoad { cable: cable(), time_s, share: 0.9, reached: 1.1, step_s },
         Warning::RoundedEnds { cable: cable(), time_s, noise_n: 1.0, tension_n: 2.0 },
-        Warning::PassedThrough { cable: cable(), steps },
+        Warning::PassedThrough {
+            cable: cable(),
+            steps,
+            first: Some(Passage { time_s, arc_length_m: 0.5, through: Through::Obstacle(7) }),
+        },
         Warning::Facets { cable: cable(), time_s, slid_m: 1.0 },
         Warning::NotResolved { cable: cable(), steps },
         Warning::CutShort { cable: cable(), steps },

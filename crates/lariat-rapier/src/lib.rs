@@ -132,6 +132,7 @@ pub mod water;
 
 pub use body::rigid_body;
 pub use body::unsettled::Unsettled;
+pub use contact::collider as collider_of;
 pub use contents::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
 pub use contents::gaps::OpenGap;
 pub use contents::junction::Junction;

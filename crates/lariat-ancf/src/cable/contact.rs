@@ -5,6 +5,7 @@ use crate::contact::{PairTouch, Touch};
 use crate::error::Error;
 use crate::obstacle::Obstacle;
 use crate::state::PairMemory;
+use crate::watch::{Passage, Through};
 
 impl Cable {
     /// Returns the obstacles, by ascending key.
@@ -48,6 +49,15 @@ impl Cable {
             self.note_inside();
         }
         outcome
+    }
+
+    /// Counts a step in which it passed through something at an arc length in m; the first one is
+    /// remembered.
+    pub(crate) fn count_passage(&mut self, arc_length_m: f64, through: Through) {
+        if self.diagnostics.crossed_steps == 0 {
+            self.passage = Some(Passage { time_s: self.time(), arc_length_m, through });
+        }
+        self.diagnostics.crossed_steps += 1;
     }
 
     /// Returns the contacts with obstacles at the end of the last step, by element.

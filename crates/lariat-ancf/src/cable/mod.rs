@@ -69,7 +69,7 @@ use crate::scales::cable::AT_NODE;
 use crate::section::Element;
 use crate::state::State;
 use crate::system::{Buffers, StepVectors, System};
-use crate::watch::Watch;
+use crate::watch::{Passage, Watch};
 use as_laid::{AsDrawn, Sagging};
 pub(crate) use carried::Layer;
 pub use carried::SharpBend;
@@ -115,6 +115,9 @@ pub struct Cable {
     pub(crate) before: State,
     /// Readings of the host steps, if they are asked for.
     pub(crate) watch: Option<Box<Watch>>,
+    /// The first of the [steps](Diagnostics::crossed_steps) in which it passed through what it can
+    /// touch.
+    pub(crate) passage: Option<Passage>,
     /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
     pub(crate) end_noise: f64,
     /// Time in s at which an obstacle was last moved by its pose alone, its key, and by how far in
@@ -159,6 +162,7 @@ impl Cable {
             scratch: Scratch::default(),
             before: State::default(),
             watch: None,
+            passage: None,
             end_noise: 0.0,
             posed: None,
             begins: 0.0,

@@ -5,7 +5,7 @@ use crate::diagnostics::Diagnostics;
 use crate::error::Error;
 use crate::integrate::Integrator;
 use crate::model::Model;
-use crate::watch::Watch;
+use crate::watch::{Passage, Watch};
 use serde::{Deserialize, Serialize};
 
 /// A cable as it is serialised.
@@ -22,12 +22,15 @@ pub(super) struct Saved {
     revision: u64,
     #[serde(default)]
     watch: Option<Box<Watch>>,
+    #[serde(default)]
+    passage: Option<Passage>,
 }
 
 impl From<Cable> for Saved {
     fn from(cable: Cable) -> Self {
-        let Cable { model, snapshot, integrator, default_integrator, diagnostics, revision, watch, .. } = cable;
-        Saved { model, snapshot, integrator, default_integrator, diagnostics, revision, watch }
+        let Cable { model, snapshot, integrator, default_integrator, diagnostics, revision, watch, passage, .. } =
+            cable;
+        Saved { model, snapshot, integrator, default_integrator, diagnostics, revision, watch, passage }
     }
 }
 
@@ -39,6 +42,7 @@ impl TryFrom<Saved> for Cable {
         cable.diagnostics = saved.diagnostics;
         cable.revision = saved.revision;
         cable.watch = saved.watch;
+        cable.passage = saved.passage;
         Ok(cable)
     }
 }

@@ -88,6 +88,7 @@ mod pair;
 mod pairs;
 mod patch;
 mod path;
+mod place;
 mod point;
 mod rebound;
 mod roll;
@@ -110,8 +111,9 @@ pub(crate) use pair::between_samples;
 #[cfg(test)]
 pub(crate) use pairs::PairEnd;
 pub use pairs::{CablePair, PairTouch, Way, crossed_on};
-pub(crate) use pairs::{PairColumns, PairStep, Strand, Strands};
+pub(crate) use pairs::{Crossed, PairColumns, PairStep, Strand, Strands};
 pub(crate) use path::BodyPath;
+pub(crate) use place::Place;
 pub(crate) use statics::{Growth, StaticContact};
 pub(crate) use step::{ContactBalance, ContactStep};
 pub use touch::{Overlap, Touch};

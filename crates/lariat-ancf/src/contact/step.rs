@@ -4,6 +4,7 @@ use super::border::{Border, Borders};
 use super::linear::Tangents;
 use super::nearby::Nearby;
 use super::path::{BodyPath, ObstacleStep};
+use super::place::Place;
 use super::point::ContactPoint;
 use crate::element::assembly::{add_force, add_tangent};
 use crate::element::shape::combine;
@@ -23,10 +24,10 @@ pub(crate) struct ContactStep {
     pub(super) watched: Vec<ContactPoint>,
     /// Thin and sharp features that an element may touch.
     pub(super) nearby: Vec<Nearby>,
-    /// Whether an element went through one when that was last asked.
-    pub passed: bool,
-    /// Whether an element entered one that was not found before, when that was last asked.
-    pub missed: bool,
+    /// Where an element went through one when that was last asked.
+    pub passed: Option<Place>,
+    /// Where an element entered one that was not found before, when that was last asked.
+    pub missed: Option<Place>,
     /// Whether friction missed its bounds when that was last asked.
     pub lags: bool,
     pub(super) obstacles: Vec<ObstacleStep>,

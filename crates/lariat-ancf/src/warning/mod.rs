@@ -34,7 +34,7 @@ mod torsion;
 mod watch;
 mod words;
 
-pub use crate::watch::{EnergyBalance, IslandChange, Watch};
+pub use crate::watch::{EnergyBalance, IslandChange, Passage, Through, Watch};
 pub use advised::AdvisedMesh;
 pub use level::Level;
 pub use shock::Shock;
@@ -344,16 +344,20 @@ pub enum Warning {
         /// Largest tension in N.
         tension_n: f64,
     },
-    /// Its centre line went through that of a cable that it can touch, or through itself.
+    /// Its centre line went through that of a cable that it can touch, through itself, or through a
+    /// thin part of an obstacle.
     #[error(
-        "cable {cable:?}: in {steps} steps it passed through what it can touch, a cable, itself or a thin part of a body: try more elements, shorter steps, or \
-         more stiffness in bending"
+        "cable {cable:?}: in {steps} steps it passed through {}: try more elements, shorter steps, or more stiffness of contact or in bending",
+        passed(.first.as_ref())
     )]
     PassedThrough {
         /// Name of the cable.
         cable: String,
         /// Number of steps in which it did.
         steps: u64,
+        /// The first of them, where it is known.
+        #[serde(default)]
+        first: Option<Passage>,
     },
     /// The tolerance of the discrete gradient asked for steps shorter than a 64th of the host step,
     /// which were not taken.
@@ -675,6 +679,26 @@ pub enum Warning {
         /// Young's modulus in Pa.
         youngs_modulus_pa: f64,
     },
+}
+
+impl Warning {
+    /// Names the obstacle that it is about by that of a body, for which `name` is asked by the key.
+    pub fn with_body(mut self, name: impl FnOnce(u64) -> Option<String>) -> Self {
+        if let Warning::PassedThrough { first: Some(Passage { through, .. }), .. } = &mut self
+            && let Through::Obstacle(key) = through
+            && let Some(name) = name(*key)
+        {
+            *through = Through::Body(name);
+        }
+        self
+    }
+}
+
+/// Returns what it passed through, and first when and where.
+fn passed(first: Option<&Passage>) -> String {
+    first.map_or("what it can touch".to_string(), |Passage { time_s, arc_length_m, through }| {
+        format!("what it can touch, first at {time_s:.4} s, with its point at {arc_length_m:.4} m, through {through}")
+    })
 }
 
 /// Returns the share by which the elongation at a tension over EA is less by Green's law, `(e +

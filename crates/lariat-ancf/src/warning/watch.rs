@@ -235,7 +235,8 @@ impl Watch {
 
     fn crossed(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let steps = cable.diagnostics().crossed_steps;
-        (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps })
+        let first = || cable.passage.clone();
+        (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps, first: first() })
     }
 }
 

@@ -5,6 +5,7 @@ mod account;
 mod balance;
 mod contact;
 mod layers;
+mod passage;
 mod steps;
 
 pub(crate) use account::{CableAccount, Last};
@@ -12,6 +13,7 @@ pub use account::{CableTerms, IslandChange};
 pub use balance::{EnergyBalance, Sizes, Verdict};
 pub(crate) use contact::{Contacts, Excess, Sticking};
 pub(crate) use layers::{CoarseKink, CoarseMoment, Layers};
+pub use passage::{Passage, Through};
 pub(crate) use steps::{Estimate, Steps};
 
 use serde::{Deserialize, Serialize};

@@ -13,6 +13,7 @@ mod first_touch;
 mod floor;
 mod hooks;
 mod pairs;
+mod passed;
 mod plastic;
 mod restitution;
 mod search;

@@ -50,7 +50,8 @@ pub(crate) fn key(collider: ColliderHandle) -> u64 {
     u64::from(generation) << 32 | u64::from(index)
 }
 
-/// Returns the collider with a key.
-pub(crate) fn collider(key: u64) -> ColliderHandle {
+/// Returns the collider that a warning of a cable of a set calls an obstacle, by its key, as
+/// [`Through::Obstacle`](lariat_ancf::warning::Through::Obstacle).
+pub fn collider(key: u64) -> ColliderHandle {
     ColliderHandle::from_raw_parts(key as u32, (key >> 32) as u32)
 }

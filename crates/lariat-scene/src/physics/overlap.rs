@@ -3,7 +3,7 @@
 use super::Physics;
 use crate::scene::Scene;
 use crate::warning::Warning;
-use lariat_rapier::deepest_inside;
+use lariat_rapier::{collider_of, deepest_inside};
 
 impl Physics {
     /// Returns a warning for each cable and body where the cable runs through the body, beyond what an attachment needs.
@@ -28,6 +28,13 @@ impl Physics {
             Warning::StartsInside { cable, body, at_m, depth_m, own }
         };
         deepest.into_iter().map(name).collect()
+    }
+
+    /// Returns the name of the body that a cable knows as an obstacle by a key.
+    pub fn name_of_obstacle(&self, scene: &Scene, key: u64) -> Option<String> {
+        let parent = self.world.colliders.get(collider_of(key))?.parent()?;
+        let body = self.bodies.iter().position(|body| *body == parent)?;
+        Some(scene.bodies[body].name.clone())
     }
 
     /// Returns a warning for each cable and body, not attached to each other, when a cable without contact is first found in the body. Once for each;

@@ -77,8 +77,9 @@ impl Watch {
         let of_wheels = self.wheels.iter().filter_map(|wheel| wheel.warning(world));
         let of_gaps = world.physics.iter().flat_map(|physics| physics.open_gaps(&world.scene));
         let of_joints = world.physics.iter().flat_map(|physics| physics.unsettled(&world.scene));
+        let name = |key| world.physics.as_ref()?.name_of_obstacle(&world.scene, key);
         of_cables
-            .map(Warning::Cable)
+            .map(|warning| Warning::Cable(warning.with_body(name)))
             .chain(self.energy_warning(world))
             .chain(of_wheels)
             .chain(of_hinges)

@@ -1,7 +1,8 @@
 //! Cables through bodies.
 
-use crate::{pendulum, warned};
+use crate::{pendulum, summary_of, warned};
 use lariat_ancf::Vector3;
+use lariat_ancf::warning::{Passage, Through};
 use lariat_scene::run::{self, Options};
 use lariat_scene::{Purpose, Scene, Warning};
 use nalgebra::Rotation3;
@@ -175,4 +176,41 @@ fn a_rope_that_starts_in_its_own_body_is_told() {
         assert_eq!(inside.clone().map(|(body, _, own)| (body, own)), expected, "{half} {anchor:?}: {warnings:?}");
         assert!(inside.is_none_or(|(_, depth, _)| depth > 0.3 * half && depth <= half), "{warnings:?}");
     }
+}
+
+/// A cable with contact that hangs from the face of a body that swings, on the axis of that, passes through nothing, whatever the length of
+/// its elements.
+#[test]
+fn a_cable_tied_to_the_face_of_a_body_passes_through_nothing() {
+    for elements in [8, 40] {
+        let text = format!(
+            "duration = 2.0\ndt = 0.01\n[[body]]\nname = \"buoy\"\nshape = {{ cylinder = [1.0, 0.3] }}\nmass = 200.0\nposition = [0.0, 0.0, 0.0]\n\
+             angular_velocity = [0.3, 0.1, 0.5]\n[[joint]]\nkind = \"ball\"\nbody = \"buoy\"\nto = \"world\"\nat = [0.0, 1.0, 0.0]\n\
+             [[cable]]\nname = \"chain\"\npoints = [[0.0, -1.0, 0.0], [0.0, -9.0, 0.0]]\nsection = {{ chain = \"30 mm\" }}\nelements = {elements}\n\
+             damping = {{ axial = 0.02 }}\ncontact = {{ friction = 0.3 }}\n[[attachment]]\ncable = \"chain\"\nat = \"start\"\nbody = \"buoy\"\n\
+             anchor = [0.0, -1.0, 0.0]\n"
+        );
+        let summary = summary_of(&text, Purpose::Run, None);
+        let passed = |w: &&Warning| matches!(w, Warning::Cable(lariat_ancf::Warning::PassedThrough { .. }));
+        assert!(!summary.warnings.iter().any(|w| passed(&w)), "{elements}: {:?}", summary.warnings);
+        assert_eq!(summary.divisions_for.iter().find(|(reason, _)| reason.contains("passes")), None, "{elements}");
+    }
+}
+
+/// A rope that a load draws through a thin body, because its contact is soft, names the body, and where it passed.
+#[test]
+fn a_rope_drawn_through_a_thin_body_names_it() {
+    let text = "duration = 0.5\ndt = 0.01\n[[body]]\nname = \"rod\"\nkind = \"fixed\"\nshape = { capsule = [0.5, 0.002] }\n\
+                rotation = [1.5707963, 0.0, 0.0]\nposition = [1.02, -0.05, 0.0]\n[[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]\n\
+                axial_stiffness = 1e6\nbending_stiffness = 0.01\nmass_per_length = 0.14\ndamping = { axial = 1e-3, bending = 1e-3 }\n\
+                contact = { radius = 0.005, stiffness = 1.0 }\nelements = 10\n[[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+                [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"world\"\n[[load]]\ncable = \"rope\"\nat = 1.0\nforce = [0.0, -5e3, 0.0]\n";
+    let warnings = warned(text, Purpose::Run);
+    let first = warnings.iter().find_map(|w| match w {
+        Warning::Cable(lariat_ancf::Warning::PassedThrough { first, .. }) => first.clone(),
+        _ => None,
+    });
+    let Passage { time_s, arc_length_m, through } = first.expect("it is told");
+    assert_eq!(through, Through::Body("rod".into()), "{warnings:?}");
+    assert!((arc_length_m - 1.02).abs() < 0.01 && time_s < 0.5, "{time_s} {arc_length_m}");
 }

@@ -27,14 +27,19 @@ use nalgebra::Vector3;
 /// A point at the beginning of a step, and its change.
 pub(in crate::contact) type Moved = [Vector3<f64>; 2];
 
-/// Returns the share of the step at which two chords first go through each other, if they do.
-pub(in crate::contact) fn crossing(a: [&Moved; 2], b: [&Moved; 2]) -> Option<f64> {
-    crossing_with_sense(a, b).map(|(share, _)| share)
+/// Where two chords go through each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::contact) struct Crossing {
+    /// Share of the step at which they do.
+    pub share: f64,
+    /// 1 or -1, the opposite of that of the way back.
+    pub sense: i32,
+    /// Where they meet, as shares of the chords.
+    pub at: [f64; 2],
 }
 
-/// Returns that share, and the sense of the crossing: 1 or -1, the opposite of that of the way
-/// back.
-pub(super) fn crossing_with_sense([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<(f64, i32)> {
+/// Returns where two chords first go through each other in the step, if they do.
+pub(in crate::contact) fn crossing([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) -> Option<Crossing> {
     let [u, v, w] = [[a1, a0], [b1, b0], [b0, a0]].map(|[p, q]| [p[0] - q[0], p[1] - q[1]]);
     let triple = |i: usize, j: usize, k: usize| u[i].cross(&v[j]).dot(&w[k]);
     let cubic = [
@@ -49,10 +54,10 @@ pub(super) fn crossing_with_sense([a0, a1]: [&Moved; 2], [b0, b1]: [&Moved; 2]) 
         if high <= low {
             continue;
         }
-        if let Some(t) = root(f, low, high)
-            && meets([a0, a1].map(|x| x[0] + x[1] * t), [b0, b1].map(|x| x[0] + x[1] * t))
+        if let Some(share) = root(f, low, high)
+            && let Some(at) = meeting([a0, a1].map(|x| x[0] + x[1] * share), [b0, b1].map(|x| x[0] + x[1] * share))
         {
-            return Some((t, if f(high) > 0.0 { 1 } else { -1 }));
+            return Some(Crossing { share, sense: if f(high) > 0.0 { 1 } else { -1 }, at });
         }
         low = high;
     }
@@ -86,8 +91,8 @@ fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
     Some(high)
 }
 
-/// Returns whether two segments in a plane meet.
-fn meets(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> bool {
+/// Returns where two segments in a plane meet, as shares of them, if they do.
+fn meeting(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> Option<[f64; 2]> {
     let (u, v) = (a[1] - a[0], b[1] - b[0]);
     let (uu, vv, uv) = (u.norm_squared(), v.norm_squared(), u.dot(&v));
     let w = b[0] - a[0];
@@ -99,7 +104,8 @@ fn meets(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> bool {
     };
     let within = -CROSSING_ROUNDING..=1.0 + CROSSING_ROUNDING;
     let apart = (w + v * t - u * s).norm_squared();
-    within.contains(&s) && within.contains(&t) && apart < CROSSING_ROUNDING * (uu + vv)
+    let meets = within.contains(&s) && within.contains(&t) && apart < CROSSING_ROUNDING * (uu + vv);
+    meets.then_some([s, t])
 }
 
 #[cfg(test)]

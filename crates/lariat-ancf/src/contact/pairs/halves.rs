@@ -56,14 +56,14 @@ impl Near<'_> {
         self.pieces[k].place(chord as f64 / self.pieces[k].chords as f64)
     }
 
-    fn arc(&self, k: usize, chord: usize) -> f64 {
+    fn arc(&self, k: usize, chord: usize, at: f64) -> f64 {
         let piece = &self.pieces[k];
-        self.from[k] + (chord as f64 + 0.5) * piece.length / piece.chords as f64
+        self.from[k] + (chord as f64 + at) * piece.length / piece.chords as f64
     }
 
-    /// Returns arc lengths in m of the middles of two chords.
-    pub fn arcs(&self, [i, j]: [usize; 2]) -> [f64; 2] {
-        [self.arc(0, i), self.arc(1, j)]
+    /// Returns arc lengths in m of points of two chords, given as shares of these.
+    pub fn arcs(&self, [i, j]: [usize; 2], at: [f64; 2]) -> [f64; 2] {
+        [self.arc(0, i, at[0]), self.arc(1, j, at[1])]
     }
 
     pub fn chords(&self, [i, j]: [usize; 2]) -> ChordPair {
@@ -74,7 +74,7 @@ impl Near<'_> {
         let way = relative(a0, b0).max(relative(a0, b1)).max(relative(a1, b0)).max(relative(a1, b1));
         let size = 0.5 * ((a1[0] - a0[0]).norm() + (b1[0] - b0[0]).norm());
         let middles = 0.5 * (a0[0] + a1[0] - b0[0] - b1[0]);
-        let [s, t] = self.arcs([i, j]);
+        let [s, t] = self.arcs([i, j], [0.5; 2]);
         ChordPair { one, other, size, way, apart: middles.norm(), along: (s - t).abs() }
     }
 

@@ -86,6 +86,7 @@ pub(crate) use columns::PairColumns;
 #[cfg(test)]
 pub(crate) use columns::PairEnd;
 pub(in crate::contact) use crossing::crossing;
+pub(crate) use search::Crossed;
 pub(crate) use step::PairStep;
 pub(crate) use strands::Strands;
 pub use touch::PairTouch;

@@ -36,6 +36,14 @@ pub(super) struct Candidate {
     pub distance: f64,
 }
 
+/// Where centre lines go through each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Crossed {
+    pub strands: [usize; 2],
+    /// Arc lengths in m.
+    pub arcs: [f64; 2],
+}
+
 /// Buffers of the search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Search {
@@ -66,23 +74,26 @@ impl Search {
         self.tests += self.elements.find(strands);
     }
 
-    /// Returns the first strands found whose centre lines go through each other in the step.
-    pub fn crossing(&mut self, strands: &Strands<'_, '_>) -> Option<[usize; 2]> {
+    /// Returns the first place found where centre lines go through each other in the step.
+    pub fn crossing(&mut self, strands: &Strands<'_, '_>) -> Option<Crossed> {
         for k in 0..self.elements.near.len() {
             let own = self.elements.near[k].map(|i| self.elements.boxes[i]);
             let pair = pair(strands, &own);
             self.tests += self.chords.find(&pair);
             let names = own.map(|own| own.strand);
-            let crosses = |chords: &[usize; 2]| {
+            let crosses = |chords: &[usize; 2]| -> Option<Crossed> {
                 let ChordPair { one: [a0, a1], other: [b0, b1], size, way, apart, along } = pair.chords(*chords);
                 if apart > size + way || pair.same && along < APART * pair.reach {
-                    return false;
+                    return None;
                 }
-                let found = crossing([&a0, &a1], [&b0, &b1]);
-                found.is_some() && (strands.over_bodies)(names, pair.arcs(*chords)) >= APART * pair.reach
+                let at = crossing([&a0, &a1], [&b0, &b1])?.at.map(|share| share.clamp(0.0, 1.0));
+                let arcs = pair.arcs(*chords, at);
+                let is_apart = (strands.over_bodies)(names, arcs) < APART * pair.reach;
+                (!is_apart).then_some(Crossed { strands: names, arcs })
             };
-            if self.chords.found.iter().any(crosses) {
-                return Some(names);
+            let found = self.chords.found.iter().find_map(crosses);
+            if found.is_some() {
+                return found;
             }
         }
         None

@@ -8,7 +8,7 @@ use super::chords::{Piece, Strand};
 use super::columns::{PairColumns, PairEnd};
 use super::passage::Passage;
 use super::point::{PairPoint, frame};
-use super::search::{Candidate, Search};
+use super::search::{Candidate, Crossed, Search};
 use super::strands::Strands;
 use crate::one_leg::OneLeg;
 use crate::scales::contact::{CLOSING_TIME, DEVIATION, HAND_ON, LAG, NEAR_PAIR, ONE, PAID};
@@ -33,8 +33,8 @@ pub(crate) struct PairStep {
     before: f64,
     /// Energy in J that was remembered: what of it no contact begins with is lost.
     stored: f64,
-    /// Strands that go through each other in the step.
-    crossed: Option<[usize; 2]>,
+    /// Where strands go through each other in the step.
+    crossed: Option<Crossed>,
     /// Number of searches.
     searches: usize,
     /// Whether friction missed its bounds when that was last asked.
@@ -162,8 +162,8 @@ impl PairStep {
         self.crossed.is_some()
     }
 
-    /// Returns the strands that went through each other when that was last asked.
-    pub fn crossed(&self) -> Option<[usize; 2]> {
+    /// Returns where strands went through each other when that was last asked.
+    pub fn crossed(&self) -> Option<Crossed> {
         self.crossed
     }
 

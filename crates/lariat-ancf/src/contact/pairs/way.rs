@@ -22,7 +22,7 @@
 //!
 //! Calugareanu 1959 (the linking number as a sum of signed crossings).
 
-use super::crossing::crossing_with_sense;
+use super::crossing::{Crossing, crossing};
 use crate::scales::SAME;
 use crate::scales::contact::CHUNK;
 use nalgebra::Vector3;
@@ -72,7 +72,7 @@ pub fn crossed_on(one: &Way, other: Option<&Way>) -> Option<[usize; 2]> {
                 let begin = if same { b.max(i + 2) } else { b };
                 for k in begin..(b + CHUNK).min(other.chords()) {
                     let (own, met) = ([one.moved(i), one.moved(i + 1)], [other.moved(k), other.moved(k + 1)]);
-                    if let Some((share, sense)) = crossing_with_sense([&own[0], &own[1]], [&met[0], &met[1]]) {
+                    if let Some(Crossing { share, sense, .. }) = crossing([&own[0], &own[1]], [&met[0], &met[1]]) {
                         // through a common point of two chords it is found on both
                         let same = |(at, known, of): &([usize; 2], f64, i32)| {
                             let near = at[0].abs_diff(i) <= 1 && at[1].abs_diff(k) <= 1;

@@ -11,10 +11,12 @@
 
 use super::IslandStep;
 use super::rounds::ContactRounds;
+use crate::contact::{ContactStep, Crossed, Place};
 use crate::scales::island::{MAX_RENEWALS, MAX_SEARCHES};
 use crate::scales::term::CONSISTENCY;
 use crate::system::CableStep;
 use crate::term::{Account, Balance, Reason, Settled, Stage, StepStart, StepTerm, Verdict};
+use crate::watch::Through;
 
 /// All contacts.
 pub(super) struct Contacts;
@@ -157,11 +159,23 @@ impl IslandStep<'_, '_> {
     /// Counts a step in which something goes through something else, for the cables that do.
     fn count_crossed(&mut self) {
         let crossed = self.buffers.pairs.crossed();
-        for (c, cable) in self.cables.iter_mut().enumerate() {
-            let contact = &cable.step_buffers.contact;
-            let is_its = crossed.is_some_and(|crossed| crossed.contains(&c)) || contact.passed || contact.missed;
-            cable.diagnostics_mut().crossed_steps += u64::from(is_its);
+        for c in 0..self.cables.len() {
+            let ContactStep { passed, missed, .. } = self.cables[c].step_buffers.contact;
+            let of_obstacle =
+                || passed.or(missed).map(|Place { arc_length, obstacle }| (arc_length, Through::Obstacle(obstacle)));
+            let Some((arc_length_m, through)) = self.passed_cable(c, crossed).or_else(of_obstacle) else { continue };
+            self.cables[c].count_passage(arc_length_m, through);
         }
+    }
+
+    /// Returns the arc length in m at which a cable went through another one or itself, and what
+    /// that is.
+    fn passed_cable(&self, c: usize, crossed: Option<Crossed>) -> Option<(f64, Through)> {
+        let Crossed { strands, arcs } = crossed?;
+        let own = strands.iter().position(|strand| *strand == c)?;
+        let other = strands[1 - own];
+        let through = if other == c { Through::Itself } else { Through::Cable(self.cables[other].name().to_string()) };
+        Some((arcs[own], through))
     }
 
     /// Counts a step whose friction does not settle on the normal forces of the step itself.
