@@ -1,6 +1,6 @@
 //! Studies of programs whose error is known in closed form, and of those that cannot be studied.
 
-use lariat_ancf::study::{Outcome, Record, Resolution, Study, StudyError};
+use lariat_ancf::study::{Outcome, Proof, Record, Resolution, Study, StudyError};
 use lariat_ancf::{At, Cable, Error, PointLoad, Section, Vector3};
 
 /// Positions with the error `size n^-order + share tolerance` per step, over a second in a hundred steps.
@@ -103,7 +103,11 @@ fn coarse_meshes_that_fail_are_left_out_and_other_failures_are_errors() {
         }
     };
     assert_eq!(Study::of_equilibrium(least(10)).run().unwrap().world, 32);
-    let error = Study::of_equilibrium(least(20)).run().unwrap_err();
+    // 32 elements work, and no run shows their error
+    let Proof { world, claim, .. } = Study::of_equilibrium(least(20)).run().unwrap();
+    assert_eq!((world, claim.outcome, claim.mesh_m), (32, Outcome::NoConvergence, None));
+    assert_eq!(claim.failed.map(|run| run.elements), Some(16));
+    let error = Study::of_equilibrium(least(40)).run().unwrap_err();
     assert_eq!(error.to_string(), "run with 16 elements: 16 elements are too few");
     let refused = |error: f64| Study::of_equilibrium(least(0)).error(error).run().unwrap_err();
     for error in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -152,5 +156,91 @@ fn the_claim_for_an_arc_of_a_circle_holds() {
             println!("m = {m}, asked {error:.0e}: off {off:.1e}, {:?}", proof.claim);
             assert!(off <= proof.claim.claimed_m.unwrap());
         }
+    }
+}
+
+/// A model of the second order that fails where `fails` says so.
+fn failing(
+    size: f64,
+    share: f64,
+    fails: impl Fn(&Resolution) -> bool,
+) -> impl FnMut(&Resolution, &mut Record) -> Result<f64, String> {
+    let mut run = model(size, 2.0, share);
+    move |resolution, record| {
+        let off = run(resolution, record)?;
+        if fails(resolution) { Err(format!("failed at {resolution:?}")) } else { Ok(off) }
+    }
+}
+
+/// A study of which a run on a finer mesh fails ends with what the meshes before it prove, and says
+/// which run failed.
+///
+/// *Source.* The error `t size/n^2` of the model is below the one asked for before the horizon.
+#[test]
+fn a_study_ends_with_what_it_knows_where_a_finer_mesh_fails() {
+    let (size, error) = (20.0, 1e-2);
+    let run = failing(size, 0.5, |resolution| resolution.elements > 20);
+    let Proof { world, claim, .. } = Study::new(1.0, 0.01, run).error(error).run().unwrap();
+    println!("{claim:?}");
+    assert_eq!((claim.outcome, claim.claimed_m), (Outcome::NoConvergence, None));
+    assert!(claim.elements <= 20 && claim.failed.unwrap().elements > 20, "{claim:?}");
+    let horizon = claim.horizon_s.unwrap();
+    assert!(horizon > 0.0 && horizon * world.abs() <= error, "{world} m, {claim:?}");
+    // a study that does not need that mesh is not kept from its proof
+    let run = failing(1e-3, 0.5, |resolution| resolution.elements > 20);
+    let claim = Study::new(1.0, 0.01, run).error(error).run().unwrap().claim;
+    assert!(claim.outcome == Outcome::Proven && claim.failed.is_none(), "{claim:?}");
+}
+
+/// A study of which runs at tighter tolerances fail, on every mesh, ends with what looser ones
+/// prove.
+///
+/// *Source.* The error `k share tau` of the model at the step k.
+#[test]
+fn a_study_ends_with_what_it_knows_where_a_tighter_tolerance_fails() {
+    let error = 1e-2;
+    let tightest = error / 400.0;
+    let run =
+        failing(1e-3, 20.0, |resolution| resolution.tolerance.is_some_and(|tolerance| tolerance < 0.9 * tightest));
+    let Proof { world, claim, .. } = Study::new(1.0, 0.01, run).error(error).run().unwrap();
+    println!("{claim:?}");
+    assert_eq!((claim.outcome, claim.claimed_m), (Outcome::NoConvergence, None));
+    assert!(claim.failed.unwrap().tolerance_m.unwrap() < claim.tolerance_m.unwrap(), "{claim:?}");
+    assert!(claim.horizon_s.unwrap() * world.abs() <= error, "{world} m, {claim:?}");
+}
+
+/// Where all but one run fail nothing is proven, and that run is the result; where all fail, the
+/// failure is the error.
+#[test]
+fn the_run_that_works_is_the_result_and_without_one_there_is_none() {
+    let mut done = 0;
+    let run = failing(1e-3, 0.5, |resolution| resolution.elements != 16 || resolution.tolerance > Some(3e-5));
+    let mut counted = run;
+    let study = Study::new(1.0, 0.01, |resolution: &Resolution, record: &mut Record| {
+        done += 1;
+        counted(resolution, record)
+    });
+    let claim = study.error(1e-2).run().unwrap().claim;
+    println!("{claim:?}");
+    assert_eq!((claim.outcome, claim.claimed_m, claim.mesh_m), (Outcome::NoConvergence, None, None));
+    assert!(claim.elements == 16 && claim.runs == done && claim.failed.is_some() && claim.horizon_s == Some(0.0));
+    let all = Study::new(1.0, 0.01, failing(1e-3, 0.5, |_| true)).error(1e-2).run();
+    assert!(matches!(all, Err(StudyError::Run { .. })), "{:?}", all.map(|proof| proof.claim));
+}
+
+/// A coupled study of which runs with shorter host steps fail ends with what the others prove.
+///
+/// *Source.* The model does not depend on the parts of a host step, so that its error is that of
+/// the mesh.
+#[test]
+fn a_coupled_study_ends_with_what_it_knows() {
+    for parts in [2, 4, 8] {
+        let run = failing(20.0, 0.5, move |resolution| resolution.parts >= parts);
+        let outcome = Study::new(1.0, 0.01, run).error(1e-2).coupled(true).run();
+        let Proof { world, claim, .. } = outcome.unwrap();
+        println!("{parts}: {claim:?}");
+        assert_eq!((claim.outcome, claim.claimed_m), (Outcome::NoConvergence, None));
+        assert!(claim.parts < parts && claim.failed.is_some(), "{claim:?}");
+        assert!(claim.horizon_s.unwrap() * world.abs() <= 1e-2, "{world} m, {claim:?}");
     }
 }

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 pub enum Outcome {
     /// The error is proven.
     Proven,
-    /// Refining does not bring the runs together: a chaotic motion, or several equilibria.
+    /// Refining does not bring the runs together: a chaotic motion, or several equilibria; or a
+    /// finer run [failed](Claim::failed).
     NoConvergence,
     /// The limit of elements was reached before the error, or refining helps so slowly that it
     /// would be.
@@ -57,6 +58,9 @@ pub struct Claim {
     /// [coupled](super::Study::coupled) study alone; the tolerance is that of a part.
     #[serde(default = "one")]
     pub parts: u32,
+    /// The run whose failure ended the study before its error was proven.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failed: Option<FailedRun>,
     /// Number of runs.
     pub runs: usize,
     /// Elements evaluated in all runs over those in the last.
@@ -81,6 +85,18 @@ pub struct ForceClaim {
     pub mesh: Option<f64>,
     /// Estimate of the error in time; 0 for an equilibrium.
     pub time: f64,
+}
+
+/// A run of a study that failed, where others did not.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FailedRun {
+    /// Elements of the cable that has most.
+    pub elements: usize,
+    /// Error of position per host step in m; `None` for an equilibrium, and for equal steps.
+    pub tolerance_m: Option<f64>,
+    /// Number of equal parts of a host step.
+    pub parts: u32,
 }
 
 fn one() -> u32 {
@@ -114,7 +130,7 @@ pub enum StudyError<E> {
         /// Host step in s.
         host_step: f64,
     },
-    /// A run failed.
+    /// A run failed, and no other worked.
     #[error("run with {elements} elements{}: {source}", at(*.tolerance))]
     Run {
         /// Elements of the cable that has most.

@@ -23,6 +23,7 @@
 //! The host step of an engine, its contacts with cables and bodies that are free between two host
 //! steps are part of these distances. Where they do not fall, as where an impact decides on which
 //! side of an edge a cable falls, the motion is not determined by its start, from the horizon on.
+//! Where a run with shorter steps fails they say no more than those before it.
 //!
 //! # References
 //!
@@ -76,8 +77,15 @@ impl<F> Runs<F> {
         let mut differences = Vec::new();
         let mut proven = false;
         while time.halvings < Some(MOST_HALVINGS) && !proven {
-            time = time.halved(differences.len() as u32 + 1);
-            let next = self.run(time.resolution(2 * first))?;
+            let halved = time.halved(differences.len() as u32 + 1);
+            let next = match self.run(halved.resolution(2 * first)) {
+                Err(StudyError::Run { .. }) if !differences.is_empty() => {
+                    time.failed = self.failed;
+                    break;
+                }
+                outcome => outcome?,
+            };
+            time = halved;
             let loose = std::mem::replace(&mut fine, next);
             let distance = loose.record.distance(&fine.record)?;
             differences.push(Difference { distance, ratio: 2.0 });
@@ -106,9 +114,17 @@ impl<F> Runs<F> {
         let mut time = before;
         let Some(halvings) = before.halvings else { return Ok((coarse, fine, time)) };
         let mut differences = Vec::new();
-        let mut loose = self.run(time.halved(halvings - AT_LEAST as u32).resolution(fine.elements))?;
+        let elements = fine.elements;
+        let looser = |coarser: u32| before.halved(halvings - coarser).resolution(elements);
+        let Some(mut loose) = self.attempt(looser(AT_LEAST as u32))? else {
+            let time = self.unknown(time, &fine);
+            return Ok((coarse, fine, time));
+        };
         for coarser in (1..AT_LEAST as u32).rev() {
-            let next = self.run(time.halved(halvings - coarser).resolution(fine.elements))?;
+            let Some(next) = self.attempt(looser(coarser))? else {
+                let time = self.unknown(time, &fine);
+                return Ok((coarse, fine, time));
+            };
             differences.push(Difference { distance: loose.record.distance(&next.record)?, ratio: 2.0 });
             loose = next;
         }
@@ -126,13 +142,30 @@ impl<F> Runs<F> {
                 time.horizon = loose.record.first_beyond(&fine.record, left * distance / time.error);
                 break;
             }
-            time = time.halved(time.halvings.unwrap_or(0) + 1);
-            let next = self.run(time.resolution(fine.elements))?;
+            let halved = time.halved(time.halvings.unwrap_or(0) + 1);
+            let Some(next) = self.attempt(halved.resolution(elements))? else {
+                time = self.unknown(time, &fine);
+                time.horizon = loose.record.first_beyond(&fine.record, left * distance / time.error).or(time.horizon);
+                break;
+            };
+            time = halved;
             loose = std::mem::replace(&mut fine, next);
         }
-        let coarse =
-            if time.halvings == before.halvings { coarse } else { self.run(time.resolution(coarse.elements))? };
-        Ok((coarse, fine, time))
+        if time.halvings == before.halvings {
+            return Ok((coarse, fine, time));
+        }
+        match self.attempt(time.resolution(coarse.elements))? {
+            Some(coarse) => Ok((coarse, fine, time)),
+            None => {
+                let time = self.unknown(time, &fine);
+                Ok((coarse, fine, time))
+            }
+        }
+    }
+
+    /// Returns the error in time where the run that should show it failed.
+    fn unknown<W>(&self, time: Time, fine: &Run<W>) -> Time {
+        Time { stuck: true, failed: self.failed, horizon: fine.record.first_time(), ..time }
     }
 }
 

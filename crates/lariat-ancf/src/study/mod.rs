@@ -30,7 +30,10 @@
 //! the first tenth of the motion on, which is no chaos, the order is that of the last three
 //! differences; and where by it half as many elements again as are allowed would be needed, the
 //! study ends at once and reports how many: that number is an extrapolation, and no claim rests on
-//! it. A first run that fails is repeated with twice and four times as many elements.
+//! it. A first run that fails is repeated with twice and four times as many elements. One that
+//! fails later, on a finer mesh or at a tighter tolerance, ends the study, which reports up to when
+//! those before it prove the error, and [which run](Claim::failed) it was; where none could be
+//! compared, the last one that worked is run again, and nothing is proven.
 //!
 //! Asked for an error of tensions or moments ([`Target`]), the study runs the world once at first,
 //! for what its cables carry, and then compares that: at the nodes that are held, loaded or ends,
@@ -77,7 +80,7 @@ mod target;
 mod time;
 
 pub use crate::SharpBend;
-pub use claim::{Claim, ForceClaim, Outcome, Proof, StudyError};
+pub use claim::{Claim, FailedRun, ForceClaim, Outcome, Proof, StudyError};
 pub use record::Record;
 pub use runs::Resolution;
 pub use target::{InvalidTarget, Quantity, Target};
@@ -170,7 +173,7 @@ impl<F> Study<F> {
     /// [`Claim::outcome`] says which.
     ///
     /// # Errors
-    /// [`StudyError::Run`] for a run that fails, [`StudyError::InvalidError`],
+    /// [`StudyError::Run`] if no run works, [`StudyError::InvalidError`],
     /// [`StudyError::InvalidSpan`], [`StudyError::NothingRecorded`],
     /// [`StudyError::DifferentTimes`].
     pub fn run<W, E>(self) -> Result<Proof<W>, StudyError<E>>
@@ -189,17 +192,37 @@ impl<F> Study<F> {
         }
         let span = span.map(|span| Span { steps: (span.steps - 1e-9).ceil().max(1.0), ..span });
         let coupled = coupled && span.is_some();
-        let mut runs = Runs { run, target, error, length: error, span, coupled, count: 0, evaluations: 0 };
+        let mut runs = Runs {
+            run,
+            target,
+            error,
+            length: error,
+            span,
+            coupled,
+            count: 0,
+            evaluations: 0,
+            worked: None,
+            failed: None,
+        };
         let mut first = FIRST;
         if target.of_positions().is_none() {
             first = runs.measured()?.unwrap_or(first);
         }
         let last_first = LAST_FIRST.max(4 * first);
+        // those of a mesh of which a run at a tighter tolerance failed
+        let mut kept = None;
         let (mut coarse, mut fine, mut time) = loop {
             match runs.pilots(first) {
-                Err(StudyError::Run { .. }) if first < last_first => first *= 2,
+                Ok(pilots) if pilots.2.failed.is_some() && first < last_first => kept = Some(pilots),
+                Err(StudyError::Run { .. }) if first < last_first => {}
+                Err(StudyError::Run { elements, tolerance, source }) => match (kept, runs.worked) {
+                    (Some(pilots), _) => break pilots,
+                    (None, Some(resolution)) => return runs.nothing_proven(resolution),
+                    (None, None) => return Err(StudyError::Run { elements, tolerance, source }),
+                },
                 outcome => break outcome?,
             }
+            first *= 2;
         };
         let mut differences = Vec::new();
         // the mesh whose error in time is known, where that of another one may be larger
@@ -272,22 +295,26 @@ impl<F> Study<F> {
             let is_stuck = order::stuck_for_good(&differences, at_limit);
             doubted = is_stuck.then(|| doubted.unwrap_or(fine.elements));
             let agreed = doubted.is_some_and(|first| fine.elements >= AGREED * first);
+            let mut failed = time.failed;
             let outcome = if proven {
                 Outcome::Proven
             } else if is_stuck && (agreed || at_limit) || time.stuck && differences.len() > 2 {
                 Outcome::NoConvergence
             } else if at_limit || needed.is_some_and(|n| n > 1.5 * limit as f64) {
                 Outcome::ElementLimit
-            } else {
+            } else if let Some(finer) = runs.attempt(time.resolution(next))? {
                 // of runs with impacts two may agree by chance where all others are apart
                 apart_before = beyond_by_one(&coarse, &fine).filter(|_| coupled && refined);
-                coarse = fine;
-                fine = runs.run(time.resolution(next))?;
+                (coarse, fine) = (fine, finer);
                 continue;
+            } else {
+                failed = runs.failed;
+                Outcome::NoConvergence
             };
             // distances at the end of a motion that no mesh determines show no order of what is
             // before
-            let apart = if outcome == Outcome::NoConvergence { beyond_by_one(&coarse, &fine) } else { apart };
+            let by_one = outcome == Outcome::NoConvergence && failed.is_none();
+            let apart = if by_one { beyond_by_one(&coarse, &fine) } else { apart };
             let horizon = [apart, apart_before, time.horizon].into_iter().flatten().reduce(f64::min);
             // runs that are near each other and come no closer
             let horizon =
@@ -323,6 +350,7 @@ impl<F> Study<F> {
                 elements_needed: needed.filter(|_| outcome == Outcome::ElementLimit).map(|needed| needed as usize),
                 tolerance_m: time.tolerance,
                 parts: time.resolution(fine.elements).parts,
+                failed: failed.filter(|_| !proven),
                 runs: runs.count,
                 cost: runs.evaluations as f64 / fine.record.evaluations().max(1) as f64,
             };
@@ -347,6 +375,36 @@ impl<F> Runs<F> {
         };
         self.length = record.as_position().unwrap_or(MOST_LENGTH * record.longest());
         Ok(record.first_elements())
+    }
+
+    /// Runs the world again as it worked, where all that it could be compared with failed.
+    fn nothing_proven<W, E>(mut self, resolution: Resolution) -> Result<Proof<W>, StudyError<E>>
+    where
+        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
+    {
+        let failed = self.failed;
+        let Run { world, record, elements } = self.run(resolution)?;
+        let Target { quantity, relative, error } = self.target;
+        let of_forces = ForceClaim { quantity, relative, asked: error, claimed: None, mesh: None, time: 0.0 };
+        let claim = Claim {
+            asked_m: self.target.of_positions(),
+            claimed_m: None,
+            mesh_m: None,
+            time_m: None,
+            forces: self.target.of_positions().is_none().then_some(of_forces),
+            outcome: Outcome::NoConvergence,
+            horizon_s: record.first_time().filter(|_| self.span.is_some()),
+            other_branch: false,
+            host_step_limits: false,
+            elements,
+            elements_needed: None,
+            tolerance_m: resolution.tolerance,
+            parts: resolution.parts,
+            failed,
+            runs: self.count,
+            cost: self.evaluations as f64 / record.evaluations().max(1) as f64,
+        };
+        Ok(Proof { world, claim })
     }
 
     /// Returns the runs with `first` and twice as many elements, and the error in time.

@@ -1,6 +1,6 @@
 //! The runs of a [study](super): their mesh, their tolerance, and what they recorded.
 
-use super::claim::StudyError;
+use super::claim::{FailedRun, StudyError};
 use super::record::Record;
 use super::target::Target;
 use crate::integrate::{ErrorNorm, Integrator, Method, StepControl};
@@ -84,6 +84,9 @@ pub(super) struct Runs<F> {
     pub(super) coupled: bool,
     pub(super) count: usize,
     pub(super) evaluations: u64,
+    /// The last run that worked, and the last that failed.
+    pub(super) worked: Option<Resolution>,
+    pub(super) failed: Option<FailedRun>,
 }
 
 impl<F> Runs<F> {
@@ -99,14 +102,32 @@ impl<F> Runs<F> {
         F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
     {
         let mut record = Record::of(self.target);
-        let Resolution { elements, tolerance, .. } = resolution;
+        let Resolution { elements, tolerance, parts, .. } = resolution;
         self.count += 1;
-        let failed = |source| StudyError::Run { elements, tolerance, source };
-        let world = (self.run)(&resolution, &mut record).map_err(failed)?;
+        let world = match (self.run)(&resolution, &mut record) {
+            Ok(world) => world,
+            Err(source) => {
+                self.failed = Some(FailedRun { elements, tolerance_m: tolerance, parts });
+                return Err(StudyError::Run { elements, tolerance, source });
+            }
+        };
+        self.worked = Some(resolution);
         self.evaluations += record.evaluations();
         if record.is_empty() {
             return Err(StudyError::NothingRecorded);
         }
         Ok(Run { elements, world, record })
+    }
+
+    /// Runs the world at a resolution that is finer than one that works; `None` if that fails,
+    /// which is [noted](Self::failed).
+    pub(super) fn attempt<W, E>(&mut self, resolution: Resolution) -> Result<Option<Run<W>>, StudyError<E>>
+    where
+        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
+    {
+        match self.run(resolution) {
+            Err(StudyError::Run { .. }) => Ok(None),
+            outcome => outcome.map(Some),
+        }
     }
 }

@@ -30,7 +30,8 @@
 //! pilot if both take as many steps. Vibrations that are faster than all steps, and smaller than
 //! the tolerance, are in no run. Runs that do not come closer with the tolerance, or not enough in
 //! a few rounds, have no error in time: the motion is not determined by its start, from the horizon
-//! on.
+//! on. Neither have those of which one at a tighter tolerance fails: rounding keeps its steps from
+//! being solved, and what is known is what looser ones say.
 //!
 //! # References
 //!
@@ -41,7 +42,7 @@
 //! - A run at a smaller tolerance instead of equal steps: up to 115 times the cost of the run it
 //!   judges, where a stiff cable then rings.
 
-use super::claim::StudyError;
+use super::claim::{FailedRun, StudyError};
 use super::record::Record;
 use super::runs::{Resolution, Run, Runs, Span};
 use crate::scales::study::{CLOSER, LOOSER, ROUNDS, SATURATED, SHARE, SHORTER, TIGHTEST};
@@ -57,6 +58,8 @@ pub(super) struct Time {
     pub stuck: bool,
     /// First time in s at which they are not together.
     pub horizon: Option<f64>,
+    /// The run whose failure keeps it from being known.
+    pub failed: Option<FailedRun>,
     /// Tolerance that has it.
     pub tolerance: Option<f64>,
     /// How often the host step was halved for it, where the study is coupled.
@@ -93,37 +96,70 @@ impl<F> Runs<F> {
             };
             let time = Time { saturated: ratio < SATURATED, tolerance: Some(tau), ..Time::default() };
             let limited = ratio < looser.powf(0.25);
+            let mut failed = None;
             let error = if limited {
-                let coarse = self.run(at(first, tau))?;
-                let error = self.in_equal_steps(&coarse, &fine, span)? + self.of_length(tau);
-                if error <= allowed {
-                    return Ok((coarse, fine, Time { error, ..time }));
+                match self.by_equal_steps(at(first, tau), &fine, span) {
+                    Ok((coarse, error)) if error <= allowed => return Ok((coarse, fine, Time { error, ..time })),
+                    Ok((_, error)) => error,
+                    // of the looser tolerance of the round before all runs worked
+                    Err(StudyError::Run { .. }) if round > 1 => {
+                        failed = self.failed;
+                        allowed.max(distance)
+                    }
+                    Err(error) => return Err(error),
                 }
-                error
             } else {
                 (distance / (looser.sqrt() - 1.0)).max(self.of_length(span.steps * tau))
             };
             // a difference that is not finite says nothing about the tolerance: the meshes are
             // compared, and do not agree
-            if error <= allowed || !error.is_finite() {
+            if failed.is_none() && (error <= allowed || !error.is_finite()) {
                 return Ok((self.run(at(first, tau))?, fine, Time { error, ..time }));
             }
             let next = (tau * aim / error).clamp(tau / 64.0, tau / LOOSER);
-            if round == ROUNDS || next < least || !limited && distance > CLOSER * before {
+            let stuck = round == ROUNDS || next < least || !limited && distance > CLOSER * before;
+            let tighter = if stuck || failed.is_some() { None } else { self.attempt(at(2 * first, next))? };
+            let Some(tighter) = tighter else {
+                // what has no tighter run has failed, unless none was taken
+                let failed = if stuck { failed } else { self.failed };
                 let horizon = loose.as_ref().and_then(|loose| loose.record.first_beyond(&fine.record, allowed));
+                let horizon = horizon.or_else(|| failed.and_then(|_| fine.record.first_time()));
                 let (kept, tolerance) = loose.map_or((fine, tau), |loose| (loose, looser * tau));
-                let time =
-                    Time { error: distance.max(error), stuck: true, horizon, tolerance: Some(tolerance), ..time };
+                let time = Time {
+                    error: distance.max(error),
+                    stuck: true,
+                    horizon,
+                    failed,
+                    tolerance: Some(tolerance),
+                    ..time
+                };
                 return Ok((self.run(at(first, tolerance))?, kept, time));
-            }
+            };
             // a run with one step per host step keeps no tolerance, and may be near the next one by
             // chance
             let by_host = limited || loose.as_ref().is_some_and(one_each);
             before = if by_host { f64::INFINITY } else { distance };
             (looser, tau, loose) = (tau / next, next, Some(fine));
-            fine = self.run(at(2 * first, next))?;
+            fine = tighter;
         }
         unreachable!("the last round returns")
+    }
+
+    /// Returns the run of the coarser mesh at the tolerance of a run, and their error in m by one
+    /// in equal steps.
+    fn by_equal_steps<W, E>(
+        &mut self,
+        coarse: Resolution,
+        fine: &Run<W>,
+        span: Span,
+    ) -> Result<(Run<W>, f64), StudyError<E>>
+    where
+        F: FnMut(&Resolution, &mut Record) -> Result<W, E>,
+    {
+        let tolerance = coarse.tolerance.unwrap_or(0.0);
+        let coarse = self.run(coarse)?;
+        let error = self.in_equal_steps(&coarse, fine, span)? + self.of_length(tolerance);
+        Ok((coarse, error))
     }
 
     /// Returns the error in m of the steps of two runs with the same tolerance, by one in equal

@@ -43,14 +43,9 @@ fn claim(summary: &Summary) -> String {
     let claim = &error.claim;
     let (target, claimed, mesh, time) = match &claim.forces {
         Some(ForceClaim { quantity, relative, asked, claimed, mesh, time, .. }) => {
-            (Target { quantity: *quantity, error: *asked, relative: *relative }, *claimed, *mesh, *time)
+            (Target { quantity: *quantity, error: *asked, relative: *relative }, *claimed, *mesh, Some(*time))
         }
-        None => (
-            Target::from(claim.asked_m.unwrap_or(f64::NAN)),
-            claim.claimed_m,
-            claim.mesh_m,
-            claim.time_m.unwrap_or(0.0),
-        ),
+        None => (Target::from(claim.asked_m.unwrap_or(f64::NAN)), claim.claimed_m, claim.mesh_m, claim.time_m),
     };
     let (of, asked) = (target.quantity, target.text(target.error));
     let text = |error: f64| match target.relative {
@@ -64,13 +59,12 @@ fn claim(summary: &Summary) -> String {
         }
         (None, None) => format!("error of {asked} not proven"),
     };
-    let mesh = mesh.map_or("not known".to_string(), text);
+    let [mesh, time] = [mesh, time].map(|error| error.map_or("not known".to_string(), text));
     let elements: Vec<String> = error.elements_of.iter().map(|(name, n)| format!("{name:?} {n}")).collect();
     let tolerance = claim.tolerance_m.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.1e} m"));
     let parts = if claim.parts > 1 { format!(", host steps in {} parts", claim.parts) } else { String::new() };
     format!(
-        "{verdict} (mesh {mesh}, time {}{})\n  elements {}{tolerance}{parts}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
-        text(time),
+        "{verdict} (mesh {mesh}, time {time}{})\n  elements {}{tolerance}{parts}; {} runs, {:.1} times the cost of the last\n  not covered: {}\n",
         if claim.host_step_limits { ": the host step limits the steps" } else { "" },
         elements.join(", "),
         claim.runs,

@@ -9,7 +9,7 @@ use crate::scene::elements::Fine;
 use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::Vector3;
-use lariat_ancf::study::{Claim, Outcome, Proof, Record, Resolution, Study, StudyError, Target};
+use lariat_ancf::study::{Claim, FailedRun, Outcome, Proof, Record, Resolution, Study, StudyError, Target};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -32,6 +32,9 @@ pub struct ErrorClaim {
     /// What is claimed.
     #[serde(flatten)]
     pub claim: Claim,
+    /// Why the run failed that ended the study, if one did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failed_because: Option<String>,
     /// Number of elements of each cable.
     pub elements_of: BTreeMap<String, usize>,
     /// What the claim does not cover.
@@ -39,7 +42,7 @@ pub struct ErrorClaim {
 }
 
 impl ErrorClaim {
-    fn of(scene: &Scene, claim: Claim, purpose: Purpose, jumps: bool) -> Self {
+    fn of(scene: &Scene, claim: Claim, purpose: Purpose, jumps: bool, failures: &[(FailedAt, String)]) -> Self {
         let mut not_covered = vec!["the model: theory of thin rods, rule, law and effects, measured data"];
         if scene.engine == Engine::Rapier {
             not_covered.push("single precision of bodies");
@@ -66,11 +69,16 @@ impl ErrorClaim {
             // all parts of one
             *elements_of.entry(cable.name.clone()).or_insert(0) += cable.elements;
         }
-        ErrorClaim { claim, elements_of, not_covered: not_covered.into_iter().map(String::from).collect() }
+        let not_covered = not_covered.into_iter().map(String::from).collect();
+        let failed = claim.failed.map(|run| (run.elements, run.tolerance_m, run.parts));
+        let reason = failures.iter().rev().find(|(run, _)| Some(*run) == failed);
+        let failed_because = reason.map(|(_, reason)| reason.clone());
+        ErrorClaim { claim, failed_because, elements_of, not_covered }
     }
 
     fn warning(&self) -> Option<Warning> {
         let Claim { outcome, horizon_s, other_branch, elements, elements_needed, .. } = self.claim;
+        let failed = self.claim.failed.map(|run| failure(&run, self.failed_because.as_deref()));
         if let Some(forces) = self.claim.forces.clone().filter(|_| outcome != Outcome::Proven) {
             let (asked, quantity) = (forces.asked, forces.quantity);
             let target = Target { quantity, error: asked, relative: forces.relative };
@@ -83,6 +91,7 @@ impl ErrorClaim {
                 elements_needed: needed,
                 horizon_s,
                 other_branch,
+                failed,
             });
         }
         let asked_m = self.claim.asked_m?;
@@ -90,7 +99,7 @@ impl ErrorClaim {
         match outcome {
             Outcome::Proven => None,
             Outcome::NoConvergence => {
-                Some(Warning::NoConvergence { asked_m, estimate_m, elements, horizon_s, other_branch })
+                Some(Warning::NoConvergence { asked_m, estimate_m, elements, horizon_s, other_branch, failed })
             }
             Outcome::ElementLimit => Some(Warning::ErrorNotReached {
                 asked_m,
@@ -104,10 +113,22 @@ impl ErrorClaim {
     }
 }
 
-/// Why a run of a study stopped: before it began, or with samples on disk.
+/// A run of a study that failed: elements of the largest cable, tolerance, and parts of a host step.
+type FailedAt = (usize, Option<f64>, u32);
+
+/// Says which run failed, and why.
+fn failure(run: &FailedRun, reason: Option<&str>) -> String {
+    let tolerance = run.tolerance_m.map_or(String::new(), |tolerance| format!(" and tolerance {tolerance:.1e} m"));
+    let parts = if run.parts > 1 { format!(", host steps in {} parts", run.parts) } else { String::new() };
+    let reason = reason.map_or(String::new(), |reason| format!(": {reason}"));
+    format!("the run with elements = {}{tolerance}{parts} failed{reason}", run.elements)
+}
+
+/// Why a run of a study stopped: before it began, with samples on disk, or because the study was interrupted.
 enum Stopped {
     Before(Error),
     During(Box<Done>),
+    Interrupted,
 }
 
 /// Runs a scene until its error is proven, and writes the results of the last run.
@@ -125,7 +146,13 @@ pub(super) fn conduct(
     let in_memory = |scene: &Scene| Ok(Output::in_memory(scene));
     let largest = scene.cables.iter().map(|cable| cable.elements).max().unwrap_or(1);
     let mut meshes: Option<Meshes> = None;
+    let mut failures: Vec<(FailedAt, String)> = Vec::new();
+    // a run that is interrupted does not fail, and none follows it
+    let mut interrupted: Option<Box<Done>> = None;
     let each = |resolution: &Resolution, record: &mut Record| -> Result<(Scene, Done), Stopped> {
+        if interrupted.is_some() {
+            return Err(Stopped::Interrupted);
+        }
         if let Some(pilot) = &mut options.pilot {
             pilot(resolution);
         }
@@ -146,11 +173,20 @@ pub(super) fn conduct(
         }
         divide(&mut scene, resolution.parts);
         let recorded = Some((&mut *record, resolution.parts));
-        let done = simulate(&scene, &in_memory, purpose, options, recorded).map_err(Stopped::Before)?;
+        let mut note = |error: &Error| {
+            failures.push(((resolution.elements, resolution.tolerance, resolution.parts), error.to_string()));
+        };
+        let simulated = simulate(&scene, &in_memory, purpose, options, recorded);
+        let done = simulated.inspect_err(&mut note).map_err(Stopped::Before)?;
         if velocities_jump(&scene, &done) {
             record.velocities_jump();
         }
-        if done.outcome.is_err() {
+        if matches!(done.outcome, Err(Error::Interrupted { .. })) {
+            interrupted = Some(Box::new(done));
+            return Err(Stopped::Interrupted);
+        }
+        if let Err(error) = &done.outcome {
+            note(error);
             return Err(Stopped::During(Box::new(done)));
         }
         if target.of_positions().is_none() && meshes.is_none() {
@@ -163,9 +199,15 @@ pub(super) fn conduct(
         Purpose::Static => Study::of_equilibrium(each),
     };
     let limit = LIMIT.max(4 * largest);
-    match study.error(target).limit(limit).coupled(scene.is_coupled()).run() {
+    let outcome = study.error(target).limit(limit).coupled(scene.is_coupled()).run();
+    if let Some(mut done) = interrupted {
+        done.output = done.output.move_to(scene, files)?;
+        return Ok(done.finish(None));
+    }
+    match outcome {
         Ok(Proof { world: (scene, mut done), claim }) => {
-            let claim = ErrorClaim::of(&scene, claim, purpose, velocities_jump(&scene, &done));
+            let jumps = velocities_jump(&scene, &done);
+            let claim = ErrorClaim::of(&scene, claim, purpose, jumps, &failures);
             done.output = done.output.move_to(&scene, files)?;
             done.world.warnings.extend(claim.warning());
             if let Some(warn) = &mut options.warn {
@@ -230,4 +272,29 @@ fn check(scene: &Scene, target: Target) -> Result<(), Error> {
     }
     let unit = target.unit();
     Err(Error::ErrorTooSmall { error: target.to_string(), least: least.0, unit, reason: least.1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run that failed, and ended the study, is named by the warning, with what it said.
+    #[test]
+    fn the_run_that_failed_is_named() {
+        let mut claim = serde_json::json!({
+            "asked_m": 0.01, "claimed_m": null, "mesh_m": 1e-3, "time_m": 0.02, "outcome": "no_convergence", "horizon_s": 20.5,
+            "other_branch": false, "host_step_limits": false, "elements": 16, "tolerance_m": 1e-6, "runs": 5, "cost": 3.0,
+            "failed": { "elements": 32, "tolerance_m": 1e-8, "parts": 1 }, "failed_because": "step failed", "elements_of": { "wire": 16 },
+            "not_covered": []
+        });
+        let told = |claim: &serde_json::Value| {
+            let claim: ErrorClaim = serde_json::from_value(claim.clone()).unwrap();
+            claim.warning().unwrap().to_string()
+        };
+        let text = told(&claim);
+        assert!(text.contains("not proven from 20.5000 s on"), "{text}");
+        assert!(text.ends_with("the run with elements = 32 and tolerance 1.0e-8 m failed: step failed"), "{text}");
+        claim["failed"] = serde_json::Value::Null;
+        assert!(told(&claim).ends_with("meshes up to elements = 16 do not come closer"), "{}", told(&claim));
+    }
 }

@@ -215,8 +215,8 @@ pub enum Warning {
     },
     /// An error that was asked for is not proven, because refining does not help.
     #[error(
-        "the error of {asked_m:e} m is not proven{}: meshes up to elements = {elements} do not come closer{}", until(*.horizon_s, *.estimate_m),
-        branches(*.other_branch)
+        "the error of {asked_m:e} m is not proven{}: {}{}", until(*.horizon_s, *.estimate_m),
+        failed.clone().unwrap_or_else(|| format!("meshes up to elements = {elements} do not come closer")), branches(*.other_branch)
     )]
     NoConvergence {
         /// Error that was asked for in m.
@@ -229,6 +229,9 @@ pub enum Warning {
         horizon_s: Option<f64>,
         /// True if the runs are apart by more than a tenth of the longest cable.
         other_branch: bool,
+        /// Which run failed, and why, if that ended the study.
+        #[serde(default)]
+        failed: Option<String>,
     },
     /// An error that was asked for is not proven with as many elements as are tried.
     #[error("the error of {asked_m:e} m is not proven{} with elements = {elements}{}{}", until(*.horizon_s, *.estimate_m),
@@ -250,8 +253,8 @@ pub enum Warning {
         other_branch: bool,
     },
     /// An error of tensions or moments that was asked for and is not proven.
-    #[error("the error {target} is not proven{} with elements = {elements}{}{}", until(*.horizon_s, None), would_need(*.elements_needed),
-        branches(*.other_branch)
+    #[error("the error {target} is not proven{} with elements = {elements}{}{}", until(*.horizon_s, None),
+        failed.as_ref().map_or_else(|| would_need(*.elements_needed), |run| format!(": {run}")), branches(*.other_branch)
     )]
     ForcesNotProven {
         /// What was asked for.
@@ -266,6 +269,9 @@ pub enum Warning {
         horizon_s: Option<f64>,
         /// True if the runs are apart by more than a tenth of the longest cable.
         other_branch: bool,
+        /// Which run failed, and why, if that ended the study.
+        #[serde(default)]
+        failed: Option<String>,
     },
     /// A rule with zero-energy modes, as the scene allows.
     #[error("cable {cable:?}: rule {rule} has zero-energy modes, as allowed: {reason}")]
