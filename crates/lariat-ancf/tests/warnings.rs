@@ -390,6 +390,28 @@ fn of_each_kind() -> Vec<Warning> {
     ]
 }
 
+/// The strain that is judged is the one that the rule resists: of a rule with one strain per
+/// element not what varies inside it, of all others that, too.
+///
+/// *Source.* A straight element of chord 1 whose `|r'|` falls from 1.2 to 0.8: the mean of the
+/// Green strain is `0.4^2/24`, that in its middle 0, and at its ends it is near 0.22 and -0.18.
+#[test]
+fn the_strain_that_a_rule_does_not_resist_is_not_told() {
+    let ends = [Vector3::zeros(), Vector3::x()];
+    let rules =
+        [("L2T2", false), ("G1-T1", false), ("projected-3", true), ("ST2", true), ("G2-T1", true), ("G5-3", true)];
+    for (rule, resisted) in rules {
+        let section = Section::from_stiffness(1e5, 0.0, 0.1).unwrap();
+        let cable = Cable::builder().points(ends).section(section).elements(1).rule(rule.parse().unwrap());
+        let mut cable = cable.gravity(Vector3::zeros()).build().unwrap();
+        let mut q = cable.positions().to_vec();
+        (q[3], q[9]) = (1.2, 0.8);
+        cable.set_coordinates(&q, &[0.0; 12]).unwrap();
+        let told = cable.warnings().iter().any(|w| matches!(w, Warning::LargeStrain { .. }));
+        assert_eq!(told, resisted, "{rule}: {:?}", cable.warnings());
+    }
+}
+
 /// Whatever is warned of, something is told, and nothing that is told explains a warning of an
 /// earlier level: causes come first, and no two explain each other.
 #[test]

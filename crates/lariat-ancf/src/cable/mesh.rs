@@ -33,7 +33,6 @@
 //!   shape appears as a load.
 
 use super::Cable;
-use crate::element::axial::projected;
 use crate::element::shape::combine;
 use crate::error::Error;
 use nalgebra::Vector3;
@@ -121,7 +120,7 @@ impl Cable {
             s += element.length;
             let at = self.system.forces.elements.gram_state(e, q, &[]);
             for xi in [0.0, 1.0] {
-                let strain = projected::strain(&at.g, xi);
+                let strain = at.table.strain(&at.g, xi);
                 let share = (strain - 0.5 * (stretch * stretch - 1.0)) * (1.0 + 2.0 * strain).max(0.0).sqrt();
                 if share > largest.0 {
                     let stiffness = element.section.axial_stiffness;

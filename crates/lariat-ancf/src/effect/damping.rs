@@ -63,7 +63,6 @@ use super::axial_law::{LawTable, Taut};
 use super::curvature::{self, Point, Squared};
 use super::{Cut, Effect, Target};
 use crate::Real;
-use crate::element::axial::projected;
 use crate::element::gram::{Control, contract, dot, gradient, quadratic_form};
 use crate::element::kernel::{DiscreteGradientForce, Gradient, GramForce, GramState, GramStep, Hessian, Load};
 use crate::element::step::combined;
@@ -325,7 +324,7 @@ impl ElementForce for DampingTable {
             return taut.strain(at, rates, xi, self.damping.axial);
         }
         // linear in the Gram numbers, and -1/2 at zero
-        self.damping.axial * (projected::strain(rates, xi) + 0.5)
+        self.damping.axial * (at.table.strain(rates, xi) + 0.5)
     }
 
     fn curvature(&self, at: &SampledPoint<'_>) -> Vector3<f64> {

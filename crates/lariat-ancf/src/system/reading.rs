@@ -3,8 +3,9 @@
 //!
 //! # Equation
 //!
-//! `N = EA (eps + that of effects) f` with the projected Green strain eps, averaged at nodes, and
-//! the strain `f/f_0 - 1`, f_0 the rest stretch: what strains the material, where
+//! `N = EA (eps + that of effects) f` with the Green strain eps that the rule resists, as far as it
+//! is linear in an element ([`axial`](crate::element::axial)), averaged at nodes, and the strain
+//! `f/f_0 - 1`, f_0 the rest stretch: what strains the material, where
 //! [`Cable::sample`](crate::Cable::sample) reads what equilibrium asks for. Both are largest at
 //! ends of elements. An element at the eye of a reel is read at the length that it has at the time
 //! of the reading.
@@ -27,7 +28,6 @@
 //! and a peak between two host steps broke nothing.
 
 use super::{Equations, System};
-use crate::element::axial::projected;
 use crate::element::gram::{gram, gram_rates};
 use crate::element::kernel::GramState;
 use crate::element::variable_length::Extent;
@@ -50,7 +50,7 @@ pub(crate) struct Reading<'a> {
     pub twists: &'a Option<Vec<SegmentTwist>>,
 }
 
-/// Tension in N and projected Green strain at a point of an element.
+/// Tension in N and Green strain, as the rule sees it, at a point of an element.
 #[derive(Clone, Copy)]
 pub(crate) struct Pull {
     pub tension: f64,
@@ -104,7 +104,7 @@ impl<'a> Reading<'a> {
     /// Returns them at a local coordinate of an element, from its state, without the part that a
     /// [torque](Model::pull_of_torque) makes.
     fn pull_without_torque(&self, e: usize, xi: f64, state: &GramState<'_, f64>) -> Pull {
-        let green_strain = projected::strain(&state.g, xi);
+        let green_strain = state.table.strain(&state.g, xi);
         let of_effects = self.system.forces.strain_of_effects(e, xi, state);
         let stretch = (1.0 + 2.0 * green_strain).max(0.0).sqrt();
         let stress = (green_strain + of_effects) * stretch;

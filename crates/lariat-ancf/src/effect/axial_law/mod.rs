@@ -344,7 +344,7 @@ impl ElementForce for LawTable {
             }
             points => points.iter().map(stress).sum::<f64>() / points.len() as f64,
         };
-        stress - crate::element::axial::projected::strain(&at.g, xi)
+        stress - at.table.strain(&at.g, xi)
     }
 
     fn curvature(&self, _: &SampledPoint<'_>) -> Vector3<f64> {

@@ -199,7 +199,7 @@ impl Taut {
     /// Returns the strain that it adds at a local coordinate to the one that makes tension.
     pub fn strain(&self, at: &GramState<'_, f64>, rates: &Six<f64>, xi: f64, time: f64) -> f64 {
         // linear in the Gram numbers, and -1/2 at zero
-        let [x, rate] = [1.0 + 2.0 * projected::strain(&at.g, xi), 1.0 + 2.0 * projected::strain(rates, xi)];
+        let [x, rate] = [&at.g, rates].map(|g| 1.0 + 2.0 * at.table.strain(g, xi));
         let law = self.law.spline.secant(x, x);
         let open = if x > self.slack { 1.0 } else { 0.0 };
         2.0 * Self::limited([law.value, law.slope], rate, [time, 0.0], [open, open]).value

@@ -25,12 +25,14 @@ use crate::quadrature::gauss_legendre;
 /// The rule with `points` Gauss points.
 pub fn table(points: usize) -> AxialTable {
     let (mut a, mut matrix) = ([0.0; 6], [0.0; 21]);
+    let mut linear = [0.0; 6];
     for (xi, w) in gauss_legendre(points) {
         let b = slope_square(xi);
         for i in 0..6 {
             a[i] += w * b[i];
+            linear[i] += w * (xi - 0.5) * b[i];
         }
         add_outer(&mut matrix, w, &b);
     }
-    AxialTable::new(a, matrix)
+    AxialTable::new(a, matrix).with_linear(linear)
 }

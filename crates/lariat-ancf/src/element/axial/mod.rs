@@ -35,6 +35,9 @@ pub struct AxialTable {
     pub a: Six<f64>,
     /// The matrix A (plain, not weighted).
     pub matrix: Upper<f64>,
+    /// `int (xi - 1/2) b` by the rule's own quadrature: what it sees of a strain that is linear in
+    /// xi. Zero for a rule with one strain per element.
+    linear: Six<f64>,
     /// a, weighted by [`PAIR_WEIGHT`].
     weighted_a: Six<f64>,
     /// Rows of A weighted, columns plain: from g to the weighted gradient.
@@ -56,10 +59,24 @@ impl AxialTable {
         AxialTable {
             a,
             matrix,
+            linear: [0.0; 6],
             weighted_a: core::array::from_fn(|i| PAIR_WEIGHT[i] * a[i]),
             weighted_rows: core::array::from_fn(|i| core::array::from_fn(|j| PAIR_WEIGHT[i] * entry(i, j))),
             weighted_matrix,
         }
+    }
+
+    /// Returns the table of a rule that sees linear strains, too.
+    fn with_linear(self, linear: Six<f64>) -> Self {
+        AxialTable { linear, ..self }
+    }
+
+    /// Returns the Green strain at xi that the rule resists, projected on linear functions by its
+    /// own moments a and d: `a.g/2 - 1/2 + 6 d.g (xi - 1/2)`. Of a rule with one strain per element
+    /// it is that one: what varies inside has no energy and makes no force.
+    pub(crate) fn strain(&self, g: &Six<f64>, xi: f64) -> f64 {
+        let dot = |x: &Six<f64>| (0..6).map(|i| x[i] * g[i]).sum::<f64>();
+        0.5 * ((dot(&self.a) - 1.0) + 12.0 * dot(&self.linear) * (xi - 0.5))
     }
 
     /// Energy of an element divided by `EA l/8`.

@@ -28,9 +28,7 @@
 //! = 0 (one); delta = 1e-2 locks again in part.
 
 use super::{AxialTable, add_outer, exact, moment};
-use crate::element::gram::Six;
 pub use crate::scales::element::DELTA;
-use std::sync::LazyLock;
 
 /// Creates the table of the projected-strain rule.
 pub fn table() -> AxialTable {
@@ -39,14 +37,5 @@ pub fn table() -> AxialTable {
     let mut matrix = exact.matrix.map(|x| DELTA * x);
     add_outer(&mut matrix, 1.0 - DELTA, &a);
     add_outer(&mut matrix, 12.0 * (1.0 - DELTA), &d);
-    AxialTable::new(a, matrix)
-}
-
-/// Returns the Green strain at xi, projected on linear functions: `((a.g - 1) + 12 (d.g) (xi -
-/// 1/2))/2`.
-pub(crate) fn strain(g: &Six<f64>, xi: f64) -> f64 {
-    static MOMENTS: LazyLock<[Six<f64>; 2]> = LazyLock::new(|| [moment(|_| 1.0), moment(|x| x - 0.5)]);
-    let [a, d] = &*MOMENTS;
-    let dot = |x: &Six<f64>| (0..6).map(|i| x[i] * g[i]).sum::<f64>();
-    0.5 * ((dot(a) - 1.0) + 12.0 * dot(d) * (xi - 0.5))
+    AxialTable::new(a, matrix).with_linear(d)
 }
