@@ -379,7 +379,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::IdleTorsion { cable: cable() },
         Warning::CoarseTwist { cable: cable(), ratio: 2.0, elements, enough },
         Warning::TwistSlips { cable: cable(), slips: 2 },
-        Warning::KinksThroughItself { cable: cable(), torque_nm: 1.0, share: 1.5 },
+        Warning::KinksThroughItself { cable: cable(), torque_nm: 1.0, tension_n: 2.0, share: 1.5 },
         Warning::MomentAlong { cable: cable(), at_m: 0.5, part_nm: 1.0, time_s },
         Warning::StiffTorsion { cable: cable(), ratio: 2.0 },
         Warning::Stubby { cable: cable(), ratio: 2.0, length_m: 1.0, diameter_m: 0.5 },

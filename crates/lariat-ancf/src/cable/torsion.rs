@@ -129,22 +129,26 @@ impl Cable {
         self.torques().map(of).fold(0.0, f64::max)
     }
 
-    /// Returns the torque in N m and `int sqrt(M^2/4 EI^2 - T/EI) ds/pi` of the segment where that
-    /// is largest: above 1 a straight one would go into a loop ([`warning`](crate::warning)).
-    pub(crate) fn kinks(&self) -> (f64, f64) {
+    /// Returns the torque in N m, the least tension in N and `int sqrt(M^2/4 EI^2 - T/EI) ds/pi` of
+    /// the segment where that is largest: above 1 a straight one would go into a loop
+    /// ([`warning`](crate::warning)).
+    pub(crate) fn kinks(&self) -> [f64; 3] {
         let q = self.positions();
         let of = |([first, last], torque): ([usize; 2], f64)| {
+            let mut least = f64::INFINITY;
             let wave = |e: usize| {
                 let element = &self.elements()[e];
                 let bending = element.section.bending_stiffness;
                 let tension = self.reading().pull(e, 0.5, &self.system.forces.elements.gram_state(e, q, &[])).tension;
+                least = least.min(tension);
                 let square = (0.5 * torque / bending).powi(2) - tension.max(0.0) / bending;
                 element.length * square.max(0.0).sqrt()
             };
-            (torque, (first..last).map(wave).sum::<f64>() / core::f64::consts::PI)
+            let share = (first..last).map(wave).sum::<f64>() / core::f64::consts::PI;
+            [torque, least, share]
         };
         let all = self.torques().filter(|(_, torque)| *torque > 0.0).map(of);
-        all.fold((0.0, 0.0), |most, own| if own.1 > most.1 { own } else { most })
+        all.fold([0.0; 3], |most, own| if own[2] > most[2] { own } else { most })
     }
 
     /// Returns the largest GJ/EI of an element; not of a stranded rope, whose wires slide as it

@@ -579,14 +579,17 @@ pub enum Warning {
     },
     /// Its torque is one at which it goes into a loop, and it does not touch itself.
     #[error(
-        "cable {cable:?}: its torque reached {torque_nm:.3e} N m, {share:.2} times that at which it goes into loops under its tension, and it does not touch itself: a loop is \
-         pulled through itself; try `Contact` with itself, more tension, or less twist"
+        "cable {cable:?}: its torque reached {torque_nm:.3e} N m at a tension of {tension_n:.3e} N, at which a straight cable goes into loops: {share:.2} half waves of its helix fit in, \
+         and 1 is enough; it does not touch itself, and a loop is pulled through itself; try `Contact` with itself, more tension, or less twist"
     )]
     KinksThroughItself {
         /// Name of the cable.
         cable: String,
         /// Torque in N m.
         torque_nm: f64,
+        /// Least tension in N where it had that torque.
+        #[serde(default)]
+        tension_n: f64,
         /// `int sqrt(M^2/(4 EI^2) - T/EI) ds/pi`.
         share: f64,
     },

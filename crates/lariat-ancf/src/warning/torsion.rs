@@ -44,9 +44,9 @@ impl Watch {
         }
         self.twist = self.twist.max(cable.largest_twist());
         if !touches_itself(cable) {
-            let (torque, share) = cable.kinks();
+            let [torque, tension, share] = cable.kinks();
             if share > self.kink.1 {
-                self.kink = (torque, share);
+                (self.kink, self.kink_tension) = ((torque, share), tension);
             }
         }
     }
@@ -67,8 +67,9 @@ impl Watch {
     }
 
     pub(super) fn kinks(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
-        let (torque_nm, share) = self.kink;
-        (share > 1.0).then(|| Warning::KinksThroughItself { cable: cable.name().to_string(), torque_nm, share })
+        let ((torque_nm, share), tension_n) = (self.kink, self.kink_tension);
+        let cable = || cable.name().to_string();
+        (share > 1.0).then(|| Warning::KinksThroughItself { cable: cable(), torque_nm, tension_n, share })
     }
 
     pub(super) fn moment_along(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {

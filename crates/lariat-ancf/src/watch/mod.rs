@@ -64,6 +64,9 @@ pub struct Watch {
     /// Torque in N m of the segment that is nearest to loops, and how many half waves fit in.
     #[serde(default)]
     pub(crate) kink: (f64, f64),
+    /// Least tension in N of that segment then.
+    #[serde(default)]
+    pub(crate) kink_tension: f64,
     /// Arc length in m of the moment with the largest part about the tangent, that part in N m, and
     /// its time in s.
     #[serde(default)]

@@ -388,9 +388,11 @@ fn a_cable_that_kinks_through_itself_is_told() {
         cable.step(1e-4).unwrap();
         cable.warnings().into_iter().find(|w| matches!(w, Warning::KinksThroughItself { .. }))
     };
-    let Some(Warning::KinksThroughItself { torque_nm, share, .. }) = warnings(1.2 * critical, None) else {
-        panic!("it is not told");
-    };
+    let warning = warnings(1.2 * critical, None).expect("it is told");
+    let text = warning.to_string();
+    let Warning::KinksThroughItself { torque_nm, tension_n, share, .. } = warning else { unreachable!() };
+    assert!((tension_n - 30.0).abs() < 1e-2, "{tension_n}");
+    assert!(text.contains(&format!("{torque_nm:.3e} N m at a tension of {tension_n:.3e} N")), "{text}");
     let expected = (0.25 * (1.2 * critical).powi(2) - 30.0).sqrt() / std::f64::consts::PI;
     assert!((torque_nm / (1.2 * critical) - 1.0).abs() < 1e-5, "{torque_nm}");
     assert!((share / expected - 1.0).abs() < 1e-4, "{share} {expected}");
