@@ -246,7 +246,7 @@ impl From<lariat_scene::Error> for Raise {
                 let body = body.clone();
                 Raise::of(&error, vec![("time", time.into()), ("body", body.into())])
             }
-            E::TimedCut { ref cable } => {
+            E::TimedCut { ref cable } | E::NoChosenMesh { ref cable, .. } => {
                 let cable = cable.clone();
                 Raise::of(&error, vec![("cable", cable.into())])
             }

@@ -175,6 +175,17 @@ pub enum Error {
         /// Name of the cable.
         cable: String,
     },
+    /// A mesh that statics are to choose, of a scene without equilibrium.
+    #[error(
+        "cable {cable:?}: finest = \"auto\" begins with the equilibrium of the scene, and there is none: {source}; give finest a length"
+    )]
+    NoChosenMesh {
+        /// Name of the cable.
+        cable: String,
+        /// Why there is none.
+        #[source]
+        source: Box<Error>,
+    },
     /// A folder or file that cannot be created before the run begins.
     #[error("cannot write to {}: {source}", path.display())]
     Output {
@@ -297,6 +308,7 @@ impl Error {
             Error::Study { .. }
             | Error::Write { .. }
             | Error::Mechanics { .. }
+            | Error::NoChosenMesh { .. }
             | Error::Body { .. }
             | Error::Coupling { .. } => 3,
             Error::Interrupted { .. } => 130,

@@ -233,6 +233,13 @@ fn chosen_points_are_not_given() {
     let text = loaded(8, "", 1.0).replace("elements = 8", "elements = { count = 8, finest = \"auto\", at = [4.0] }");
     let error = parse(&text, Purpose::Static).unwrap_err().to_string();
     assert!(error.contains("cable.line.elements.at") && error.contains("auto"), "{error}");
+    // a cable that falls has no equilibrium to choose by
+    let falls = loaded(8, "", 1.0).replace("elements = 8", "elements = { count = 8, finest = \"auto\" }");
+    let falls =
+        format!("{}{}", &falls[..falls.find("[[attachment]]").unwrap()], &falls[falls.find("[[load]]").unwrap()..]);
+    let error = collect(&parse(&falls, Purpose::Run).unwrap(), Purpose::Run, &mut Options::default());
+    let error = error.err().expect("no mesh").to_string();
+    assert!(error.contains("finest = \"auto\"") && error.contains("line"), "{error}");
 }
 
 /// Two cables without stiffness that cross at a junction, four elements each, with a load there.

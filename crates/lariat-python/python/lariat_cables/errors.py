@@ -371,6 +371,10 @@ class TimedCutError(Error, ValueError):
     """A scene that cuts a cable at a time, given to ``load``: cable."""
 
 
+class NoChosenMeshError(Error):
+    """A mesh with ``finest = "auto"`` in a scene without equilibrium: cable."""
+
+
 class TooLargeError(Error, ValueError):
     """A scene that would need more memory or disk than anybody means."""
 

@@ -74,16 +74,18 @@ impl Meshes {
 /// Returns a scene with the meshes that statics choose, if there are any.
 ///
 /// # Errors
-/// Those of [`World::build`] and [`World::start`] for statics.
+/// [`Error::NoChosenMesh`] of a scene without equilibrium, and those of [`World::build`].
 pub(super) fn with_chosen(scene: &Scene) -> Result<Cow<'_, Scene>, Error> {
     let chosen = |index: usize| scene.cables[index].fine == Fine::ByStatics;
-    if !(0..scene.cables.len()).any(chosen) {
+    let Some(first) = (0..scene.cables.len()).find(|&index| chosen(index)) else {
         return Ok(Cow::Borrowed(scene));
-    }
+    };
+    let name = scene.cables[first].name.clone();
     let mut scene = scene.clone();
     scene.cables.iter_mut().filter(|cable| cable.fine == Fine::ByStatics).for_each(|cable| cable.nodes_at_loads = true);
     let mut world = World::build(&scene)?;
-    world.start(Purpose::Static)?;
+    let started = world.start(Purpose::Static);
+    started.map_err(|source| Error::NoChosenMesh { cable: name, source: Box::new(source) })?;
     Ok(Cow::Owned(refined(&world, chosen)))
 }
 
