@@ -57,6 +57,15 @@ impl Impedance {
         self.update_freed(cable, nodes, h, |_| true)
     }
 
+    /// As [`update`](Self::update), with the attached nodes `held` held: those whose motion is
+    /// prescribed, and that are not among `nodes`.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    pub fn update_beside(&mut self, cable: &mut Cable, nodes: &[usize], held: &[usize], h: f64) -> Result<(), Error> {
+        self.update_freed(cable, nodes, h, |attached| !held.contains(&attached))
+    }
+
     /// As [`update`](Self::update), with all attached nodes but `nodes` held.
     ///
     /// # Errors

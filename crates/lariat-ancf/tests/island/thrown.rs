@@ -86,3 +86,30 @@ fn an_impulse_gives_a_compressed_rope_its_momentum() {
     impedance.apply_impulses(&mut rope, &[impulse]);
     assert!((rope.momentum().linear + impulse).norm() < 1e-9, "{:?}", rope.momentum().linear);
 }
+
+/// After an impulse at one end of a rope that is attached at both, in any direction, the other end is where it was if it is held; where both
+/// are free, it moves.
+///
+/// *Source.* A held node does not move.
+#[test]
+fn an_impulse_leaves_a_held_end_where_it_is() {
+    let section = Section::from_stiffness(3e6, 0.5, 0.5).unwrap();
+    for (impulse, h) in [(Vector3::new(0.3, 2.0, 0.0), 1.0 / 120.0), (Vector3::new(-5.0, 0.0, 1.0), 1.0 / 60.0)] {
+        for held in [true, false] {
+            let mut rope = Cable::builder()
+                .points([Vector3::zeros(), Vector3::new(4.0, 0.0, 0.0)])
+                .elements(5)
+                .section(section)
+                .gravity(Vector3::zeros())
+                .build()
+                .unwrap();
+            let (starts, end) = ([rope.attach(At::Start).unwrap()], rope.attach(At::End).unwrap());
+            let mut impedance = Impedance::default();
+            impedance.update_beside(&mut rope, &[end], if held { &starts } else { &[] }, h).unwrap();
+            impedance.apply_impulses(&mut rope, &[impulse]);
+            let moved = (rope.positions()[..3].iter().chain(&rope.velocities()[..3])).any(|x| *x != 0.0);
+            assert_eq!(moved, !held, "{impulse:?}");
+            assert!(rope.velocities().iter().any(|v| v.abs() > 1e-3));
+        }
+    }
+}

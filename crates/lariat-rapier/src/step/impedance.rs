@@ -6,14 +6,15 @@
 //! D = the block of a pin in (C + B)^-1
 //! B_i = 1/m - [r]x I^-1 [r]x,     of the body of the pin itself times MOBILITY_SHARE
 //! ```
-//! C is the compliance of the cable over the step ([`Impedance`]) at the pin and at the next ones
-//! on other bodies, B_i the mobility of the body of each, alone. A [`Ledger`] acts on the body with
-//! D about the predicted velocity of the anchor: if the prediction was right it does nothing; if a
-//! contact or a joint makes the body deviate, the body feels the cable within the same step. A
-//! sleeping body is predicted to rest under the force of its cables, which stands in the motors for
-//! as long as it sleeps: should Rapier wake it within a step, it feels them.
+//! C is the compliance of the cable over the step ([`Impedance`]) at the pin and at the [next
+//! ones](super::next_pins), B_i the mobility of the body of each, alone. A [`Ledger`] acts on the
+//! body with D about the predicted velocity of the anchor: if the prediction was right it does
+//! nothing; if a contact or a joint makes the body deviate, the body feels the cable within the
+//! same step. A sleeping body is predicted to rest under the force of its cables, which stands in
+//! the motors for as long as it sleeps: should Rapier wake it within a step, it feels them.
 //!
-//! What the motors did acts on the cables as well, p by the motors of a body that deviated:
+//! What the motors did acts on the cables as well, p by the motors of a body that deviated, with
+//! what the [next pins](super::next_pins) do about it:
 //! ```text
 //! cable:     dv = -A^-1 J^T p      dx = h dv
 //! ```
@@ -38,17 +39,21 @@ use crate::contents::attachment::Attachment;
 use crate::error::Error;
 use crate::islands::{Island, Member};
 use crate::mechanism::Mechanism;
-use crate::scales::step::{JUNCTION_MASS, MOBILITY_SHARE};
+use crate::step::next_pins::{driving_point, with_next};
 use crate::step::prediction::{Prediction, StepParameters};
-use ::nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
-use lariat_ancf::Cable;
-use lariat_ancf::island::{Impedance, PinConstraint, RigidBody};
+use ::nalgebra::{Matrix3, Vector3, Vector6};
+use lariat_ancf::island::PinConstraint;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
-/// Linearises a cable at some nodes for a step: [`Impedance::update`] or
-/// [`Impedance::update_held`].
-pub(super) type Update = fn(&mut Impedance, &mut Cable, &[usize], f64) -> Result<(), lariat_ancf::Error>;
+/// What the pins of a cable do at which it is not linearised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Others {
+    /// They move with the cable, but those on driven bodies.
+    Free,
+    /// They stay where they are.
+    Held,
+}
 
 /// Sets the motors of all bodies of an island that may deviate from their prediction, and disables
 /// all others.
@@ -73,8 +78,8 @@ pub(crate) fn set_motors(
     deviating.extend((0..island.members.len()).filter(|&m| deviates(contents, world, island, prediction, m, step)));
     near.clear();
     let own = |pin: &usize| deviating.contains(&island.pins[*pin].body);
-    near.extend((0..island.pins.len()).filter(own).flat_map(|pin| with_next(&island.pins, pin)).flatten());
-    linearise(contents, island, prediction, |pin| near.contains(&pin), (Impedance::update, h))?;
+    near.extend((0..island.pins.len()).filter(own).flat_map(|pin| with_next(island, pin)).flatten());
+    linearise(contents, island, prediction, |pin| near.contains(&pin), (Others::Free, h))?;
     for (pin, constraint) in island.pins.iter().enumerate().filter(|(pin, _)| own(pin)) {
         let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
         let (start, end) = (&prediction.start[constraint.body], &prediction.end[constraint.body]);
@@ -105,7 +110,7 @@ pub(crate) fn hold(
     let asleep = |member: &Member| member.body().is_some_and(|handle| world.bodies[handle].is_sleeping());
     let asleep: Vec<usize> = (0..island.members.len()).filter(|&m| asleep(&island.members[m])).collect();
     let on_asleep = |pin: usize| asleep.contains(&island.pins[pin].body);
-    linearise(contents, island, prediction, on_asleep, (Impedance::update_held, h))?;
+    linearise(contents, island, prediction, on_asleep, (Others::Held, h))?;
     for (pin, constraint) in island.pins.iter().enumerate().filter(|(_, pin)| asleep.contains(&pin.body)) {
         let Some(a) = island.attachments[pin].and_then(|a| contents.attachments.get_mut(a)) else { continue };
         let cable = &prediction.impedances[constraint.cable];
@@ -172,64 +177,32 @@ fn bears_motors(prediction: &Prediction, m: usize) -> bool {
 }
 
 /// Linearises the cables of an island for a step of `h` (s) at the pins that `moves` names by their
-/// indices, with the others as `update` says.
+/// indices; the others do as `others` says.
 pub(super) fn linearise(
     contents: &mut Contents,
     island: &Island,
     prediction: &mut Prediction,
     moves: impl Fn(usize) -> bool,
-    (update, h): (Update, f64),
+    (others, h): (Others, f64),
 ) -> Result<(), Error> {
-    let Prediction { impedances, nodes, .. } = prediction;
+    let Prediction { impedances, nodes, driven, .. } = prediction;
     impedances.resize_with(island.cables.len(), Default::default);
     let mut outcome = Ok(());
     contents.for_cables(&island.cables, |c, cable| {
-        let of_cable = island.pins.iter().enumerate().filter(|(index, pin)| pin.cable == c && moves(*index));
+        let of_cable = || island.pins.iter().enumerate().filter(|(_, pin)| pin.cable == c);
         nodes.clear();
-        nodes.extend(of_cable.map(|(_, pin)| pin.node));
+        nodes.extend(of_cable().filter(|(index, _)| moves(*index)).map(|(_, pin)| pin.node));
         if outcome.is_ok() && !nodes.is_empty() {
-            outcome = update(&mut impedances[c], cable, nodes, h);
+            let is_driven = |pin: &PinConstraint| matches!(island.members[pin.body], Member::Driven(_));
+            driven.clear();
+            driven.extend(of_cable().filter(|(i, pin)| is_driven(pin) && !moves(*i)).map(|(_, pin)| pin.node));
+            outcome = match others {
+                Others::Free => impedances[c].update_beside(cable, nodes, driven, h),
+                Others::Held => impedances[c].update_held(cable, nodes, h),
+            };
         }
     });
     Ok(outcome?)
-}
-
-/// Returns a pin and the next ones on other bodies to both sides of it on its cable.
-fn with_next(pins: &[PinConstraint], pin: usize) -> [Option<usize>; 3] {
-    let own = &pins[pin];
-    let others = (0..pins.len()).filter(|&p| pins[p].cable == own.cable && pins[p].body != own.body);
-    let before = others.clone().filter(|&p| pins[p].node < own.node).max_by_key(|&p| pins[p].node);
-    let after = others.filter(|&p| pins[p].node > own.node).min_by_key(|&p| pins[p].node);
-    [Some(pin), before, after]
-}
-
-/// Returns D of a pin; `None` if there is no inverse.
-fn driving_point(island: &Island, prediction: &Prediction, pin: usize) -> Option<Matrix3<f64>> {
-    let cable = &prediction.impedances[island.pins[pin].cable];
-    let pins = with_next(&island.pins, pin).map(|pin| {
-        let pin = &island.pins[pin?];
-        Some((pin, cable.nodes().iter().position(|&node| node == pin.node)?))
-    });
-    // where there is no next pin, the rows are those of a unit matrix
-    let mut matrix = SMatrix::<f64, 9, 9>::identity();
-    for (a, (one, i)) in pins.iter().enumerate().filter_map(|(a, pin)| Some((a, pin.as_ref()?))) {
-        for (b, (_, j)) in pins.iter().enumerate().filter_map(|(b, pin)| Some((b, pin.as_ref()?))) {
-            matrix.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&cable.compliance(*i, *j));
-        }
-        let share = if a == 0 { MOBILITY_SHARE } else { 1.0 };
-        let mut own = matrix.fixed_view_mut::<3, 3>(3 * a, 3 * a);
-        own += mobility(&prediction.start[one.body], &one.anchor) * share;
-    }
-    Some(matrix.try_inverse()?.fixed_view::<3, 3>(0, 0).into_owned())
-}
-
-/// Returns the velocity of a point of a body per impulse on it, in 1/kg, as far as its axes are
-/// free.
-fn mobility(body: &RigidBody, anchor: &Vector3<f64>) -> Matrix3<f64> {
-    let free = |from: usize| Matrix3::from_diagonal(&Vector3::from_fn(|x, _| f64::from(u8::from(body.free[from + x]))));
-    let lever = (body.rotation * anchor).cross_matrix();
-    let inverse = body.world_inertia(&body.rotation).try_inverse().unwrap_or_else(Matrix3::zeros);
-    free(0) / body.mass.max(JUNCTION_MASS) - lever * free(3) * inverse * free(3) * lever
 }
 
 /// Reads the impulses of the motors of an island in a step of `h` (s).

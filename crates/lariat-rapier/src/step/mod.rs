@@ -1,6 +1,6 @@
 //! The host step: predict, Rapier's step, reconcile, as many times as a host step has Rapier steps.
 //!
-//! A body that is free, or touches something, goes through eight files, of which this is the first:
+//! A body that is free, or touches something, goes through nine files, of which this is the first:
 //!
 //! | file | per Rapier step |
 //! |---|---|
@@ -9,6 +9,7 @@
 //! | [`integrate`] | integrates them together, all islands at once |
 //! | [`apply`] | gives Rapier the predicted motion; reverts it |
 //! | [`impedance`] | lets a body that may deviate feel its cables within Rapier's step, and the cables what that did |
+//! | [`next_pins`] | and what that does at the next pins of these cables |
 //! | [`mod@reconcile`] | takes over what Rapier's step made of it |
 //! | [`reaction`] | what contacts and joints did to it, expected again |
 //!
@@ -36,6 +37,7 @@ mod host_step;
 pub(crate) mod impedance;
 pub(crate) mod integrate;
 pub(crate) mod kinematic_ends;
+mod next_pins;
 pub(crate) mod predict;
 pub(crate) mod prediction;
 mod reaction;

@@ -65,14 +65,17 @@ pub(crate) struct Prediction {
     pub accounts: Vec<PinAccount>,
     /// Indices of the members that may deviate from the prediction.
     pub deviating: Vec<usize>,
-    /// Indices of their pins, and of the next ones on the same cables.
+    /// Indices of their pins, and of the [next ones](crate::step::next_pins).
     pub near: Vec<usize>,
-    /// Nodes of a cable: a buffer.
+    /// Nodes of a cable, and those that driven bodies hold: buffers.
     pub nodes: Vec<usize>,
+    pub driven: Vec<usize>,
     /// By pin, whether its motors are on.
     pub motors: Vec<bool>,
-    /// By pin, the impulse of its motors in N s.
+    /// By pin, the impulse of its motors in N s, and of what they did at other pins.
     pub impulses: Vec<Vector3<f64>>,
+    /// By pin, what the motors at other pins did there, in N s: a buffer.
+    pub passed: Vec<Vector3<f64>>,
     /// By node of an impedance, the impulse on it in N s: a buffer.
     pub impulses_at: Vec<Vector3<f64>>,
     /// What its energy balance compares with.

@@ -8,7 +8,8 @@
 //! v0 is the velocity that Rapier was given, x1 and v1 are the predicted state. The whole of the
 //! predicted change of velocity stays, so that bodies and cables keep their momentum. What contacts
 //! and joints did is expected again ([`reaction`](super::reaction)); what the motors did acts on
-//! the cables ([`impedance`](super::impedance)).
+//! the cables ([`impedance`](super::impedance)), and through them on the next bodies
+//! ([`next_pins`](super::next_pins)).
 //!
 //! # Validity
 //! With N substeps Rapier rounds each coordinate N times, by half a unit in the last place, and
@@ -33,6 +34,7 @@ use crate::step::energy;
 use crate::step::groups;
 use crate::step::impedance::{apply_motor_impulses, follow_body, motor_impulse, take_impulses};
 use crate::step::kinematic_ends;
+use crate::step::next_pins;
 use crate::step::prediction::{AppliedMotion, BodyStep, Prediction};
 use crate::step::reaction::update_reaction;
 use crate::step::sleep;
@@ -69,6 +71,7 @@ pub(crate) fn reconcile(
         energy::note(contents, world, island, prediction, h);
         let rests = !prediction.sleep.disturbed && sleep::is_resting(contents, island, (h, sleep_speed));
         read_members(contents, world, island, prediction, (h, rests));
+        next_pins::pass_on(contents, world, island, prediction, h);
         apply_motor_impulses(contents, island, prediction);
         read_attachments(contents, world, island, prediction, h);
         waking::wake_within_step(contents, world, island, prediction, h);
@@ -247,7 +250,7 @@ fn read_attachments(contents: &mut Contents, world: &PhysicsWorld, island: &Isla
         let reading = &mut a.reading;
         let deviated = prediction.applied[pin.body].as_ref().is_some_and(|applied| !applied.landed);
         reading.work += a.predicted.work;
-        if deviated {
+        if deviated || prediction.impulses[i] != Vector3::zeros() {
             let work = |impulse: &Vector3<f64>, place: &Vector3<f64>, attitude: UnitQuaternion<f64>| {
                 let turned = (attitude * start.rotation.inverse()).scaled_axis();
                 impulse.dot(&(place - start.point(&pin.anchor))) + a.predicted.angular_impulse.dot(&turned)

@@ -20,10 +20,9 @@ use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::islands::Island;
 use crate::step::impedance;
-use crate::step::impedance::apply_motor_impulses;
+use crate::step::impedance::{Others, apply_motor_impulses};
 use crate::step::prediction::Prediction;
 use ::nalgebra::Vector3;
-use lariat_ancf::island::Impedance;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
 
@@ -44,7 +43,7 @@ pub(super) fn wake_within_step(
     let bodies = island.members.iter().enumerate().filter_map(|(m, member)| Some((m, member.body()?)));
     let woken: Vec<usize> = bodies.filter(|(m, handle)| is_woken(*m, *handle)).map(|(m, _)| m).collect();
     // what was linearised when the motors were set can be linearised again: it has not moved since
-    let held = (Impedance::update_held as impedance::Update, h);
+    let held = (Others::Held, h);
     let on_woken = |pin: usize| woken.contains(&island.pins[pin].body);
     if woken.is_empty()
         || contents.changed

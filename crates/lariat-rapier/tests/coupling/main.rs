@@ -22,6 +22,7 @@ mod hoist;
 mod host_steps;
 mod joints;
 mod lamps;
+mod landing;
 mod lever;
 mod light_links;
 mod mistakes;
