@@ -203,6 +203,7 @@ impl From<lariat_rapier::Error> for Raise {
             JointInMove { body: debug }
             JointInStatics { body: debug }
             ContactInStatics { body: debug }
+            NotHeldInStatics { bodies: debug, cables }
             MovesInStatics { way }
             CablesPassInStatics { cable, other, arc_length, by_motion }
             CablePassesBodyInStatics { cable, body: debug, arc_length, by_motion }

@@ -148,8 +148,23 @@ pub enum Error {
         /// What of the joint.
         reason: &'static str,
     },
-    /// A contact of a body whose equilibrium is asked for, where it was or where it was moved, in a
-    /// world that comes to no rest by its motion.
+    /// Bodies and cables that nothing holds against what acts on them: neither a support, a joint
+    /// or a body with prescribed motion, nor something on which they would fall and come to rest by
+    /// their motion.
+    #[error(
+        "nothing holds {} against gravity and the users' forces, connected by {}: attach one of the cables to what stays where it is, or put something \
+         below on which they come to rest",
+        names_of(.bodies),
+        cables_of(.cables)
+    )]
+    NotHeldInStatics {
+        /// The dynamic bodies.
+        bodies: Vec<RigidBodyHandle>,
+        /// Names of the cables that connect them.
+        cables: Vec<String>,
+    },
+    /// A contact of a body whose equilibrium is asked for, where it was, where it was moved or on
+    /// its way, in a world that comes to no rest by its motion.
     #[error(
         "statics compute no contacts of bodies, body {body:?} touches {}, and in 30 s of motion not all comes to rest, or something changes with time: \
          step until it rests",
@@ -256,6 +271,16 @@ impl Error {
         }
         self
     }
+}
+
+fn names_of(bodies: &[RigidBodyHandle]) -> String {
+    let names: Vec<String> = bodies.iter().map(|body| format!("{body:?}")).collect();
+    format!("{} {}", if names.len() == 1 { "body" } else { "bodies" }, names.join(", "))
+}
+
+fn cables_of(cables: &[String]) -> String {
+    let names: Vec<String> = cables.iter().map(|cable| format!("{cable:?}")).collect();
+    format!("{} {}", if names.len() == 1 { "cable" } else { "cables" }, names.join(", "))
 }
 
 fn name_of(body: &Option<RigidBodyHandle>) -> String {

@@ -308,6 +308,10 @@ pub(crate) mod statics {
     /// on another.
     pub(crate) const TOUCH: f64 = 1e-3;
 
+    /// Way in m on which a body that nothing holds is looked for what it would fall on. Derived: no
+    /// body falls as far within the 30 s of a relaxation.
+    pub(crate) const FALL: f64 = 4.5e3;
+
     /// Host step in s of a relaxation. Derived: that of games.
     pub(crate) const RELAXATION_STEP: f64 = 1.0 / 60.0;
 

@@ -769,9 +769,9 @@ class World:
 
     def equilibrium(self) -> WorldEquilibrium:
         """Moves cables and the bodies on them, as their joints allow, to static equilibrium; true if all is stable. Cables with contact lie on fixed and kinematic
-        colliders, without friction; where bodies touch others, or cables touch each other, themselves or bodies that they move, all comes to rest by its
-        motion, from where it is drawn. Raises NoEquilibriumError, JointInStaticsError, CableTouchesInStaticsError, and, where not all comes to rest,
-        ContactInStaticsError, CablesPassInStaticsError, CablePassesBodyInStaticsError, MovesInStaticsError; all is then as before."""
+        colliders, without friction; where bodies touch others or would fall on them, or cables touch each other, themselves or bodies that they move, all
+        comes to rest by its motion, from where it is drawn. Raises NoEquilibriumError, JointInStaticsError, CableTouchesInStaticsError, and, where not all
+        comes to rest, NotHeldInStaticsError, ContactInStaticsError, CablesPassInStaticsError, CablePassesBodyInStaticsError, MovesInStaticsError; all is then as before."""
 
     def warnings(self) -> list[str]:
         """Returns what all cables say about their mesh, steps, energy, law and sizes, and about colliders that they are in or do not bounce off.

@@ -321,6 +321,10 @@ class ContactInStaticsError(Error):
     """A contact of a body whose equilibrium is asked for, in a world that comes to no rest by its motion: body."""
 
 
+class NotHeldInStaticsError(Error):
+    """Bodies and cables that nothing holds, and that would fall on nothing on which they come to rest: bodies, cables."""
+
+
 class MovesInStaticsError(Error):
     """Cables that touch each other, themselves, or bodies that they move, in a world that comes to no rest by its motion: way."""
 

@@ -66,10 +66,10 @@ impl World {
 
     /// Moves cables and the bodies on them, as their joints allow, to static equilibrium; true if
     /// all is stable. Cables with contact lie on fixed and kinematic colliders, without friction;
-    /// where bodies touch others, or cables touch each other, themselves or bodies that they move,
-    /// all comes to rest by its motion, from where it is drawn. Raises NoEquilibriumError,
-    /// JointInStaticsError, CableTouchesInStaticsError, and, where not all comes to rest,
-    /// ContactInStaticsError, CablesPassInStaticsError, CablePassesBodyInStaticsError,
+    /// where bodies touch others or would fall on them, or cables touch each other, themselves or
+    /// bodies that they move, all comes to rest by its motion, from where it is drawn. Raises
+    /// NoEquilibriumError, JointInStaticsError, CableTouchesInStaticsError, and, where not all comes
+    /// to rest, NotHeldInStaticsError, ContactInStaticsError, CablesPassInStaticsError, CablePassesBodyInStaticsError,
     /// MovesInStaticsError; all is then as before.
     fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let found = self.0.compute(py, |contents| contents.set.equilibrium(&mut contents.world)).map_err(raise)?;

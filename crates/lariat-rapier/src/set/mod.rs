@@ -213,13 +213,14 @@ impl CableSet {
     /// Bodies that joints connect to those of cables move with them, and over sheaves runs what the
     /// pulls ask for. Cables with contact lie, without friction, on the colliders of bodies that
     /// stay where they are: fixed and kinematic ones, and dynamic ones that no cable is attached
-    /// to. Where bodies touch others, or cables touch each other, themselves or bodies that they
-    /// move, all of the world comes to rest by its motion instead, from where it is, with friction:
-    /// [`Equilibrium::relaxed`](crate::Equilibrium::relaxed).
+    /// to. Where bodies of cables touch others, or would fall on them, or cables touch each other,
+    /// themselves or bodies that they move, all of the world comes to rest by its motion instead,
+    /// from where it is, with friction: [`Equilibrium::relaxed`](crate::Equilibrium::relaxed).
     ///
     /// # Errors
     /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has
-    /// none; [`Error::JointInStatics`] for joints that drive or are springs;
+    /// none; [`Error::NotHeldInStatics`] for bodies that nothing holds, and that come to rest on
+    /// nothing; [`Error::JointInStatics`] for joints that drive or are springs;
     /// [`Error::ContactInStatics`], [`Error::CablesPassInStatics`],
     /// [`Error::CablePassesBodyInStatics`] or [`Error::MovesInStatics`] for a world with contact
     /// that does not come to rest in 30 s, or in which something changes with time;

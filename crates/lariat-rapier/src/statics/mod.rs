@@ -16,9 +16,10 @@
 //! cables. One that would run through a collider, over a sharp edge or something thin that its
 //! samples do not see, is an error. Contact of cables with each other, with themselves, and with
 //! bodies that they move takes no part in the search: where the shape that was found is
-//! [beyond](passed) what was drawn beside it, or does not stand, and where bodies touch, all of the
-//! world [comes to rest](relaxation) by its motion. A reel holds by no more than its largest force.
-//! A cable alone may end in an indifferent shape, which its report says.
+//! [beyond](passed) what was drawn beside it, or does not stand, and where bodies [touch](contacts)
+//! where they were drawn or found or on the way, or [would fall](unheld) on something since nothing
+//! holds them, all of the world [comes to rest](relaxation) by its motion. A reel holds by no more
+//! than its largest force. A cable alone may end in an indifferent shape, which its report says.
 
 mod contacts;
 mod joints;
@@ -27,6 +28,7 @@ mod passed;
 mod relaxation;
 mod report;
 mod solve;
+mod unheld;
 mod write;
 
 pub use report::{Equilibrium, Relaxed};
@@ -84,6 +86,14 @@ pub(crate) fn equilibrium(
             | Error::CablesPassInStatics { .. }
             | Error::CablePassesBodyInStatics { .. }),
         ) => reason,
+        Err(Error::NotHeldInStatics { bodies, cables }) => {
+            let lands = unheld::land(world, &bodies, forces);
+            let reason = Error::NotHeldInStatics { bodies, cables };
+            if !lands {
+                return Err(reason);
+            }
+            reason
+        }
         Ok(found) => {
             let Some((contents_before, world_before)) = before else { return Ok(found) };
             let Some(way) = relaxation::moves(contents, world, forces) else { return Ok(found) };
@@ -117,6 +127,11 @@ fn search(
     let mut out = Equilibrium::default();
     let joined = joints::joined(world, &islands.list);
     let moving: Vec<RigidBodyHandle> = joined.iter().flat_map(|island| island.bodies().collect::<Vec<_>>()).collect();
+    joined.iter().try_for_each(|island| joints::of_island(world, island).map(drop))?;
+    // what touches where it was drawn needs no search
+    let drawn_at: Vec<(RigidBodyHandle, Pose)> =
+        moving.iter().map(|&handle| (handle, *world.bodies[handle].position())).collect();
+    check_contacts(world, &drawn_at)?;
     let mut solved = Vec::new();
     for island in joined {
         solved.push(solve(contents, finder, world, (island, &moving, forces), options, &mut out)?);

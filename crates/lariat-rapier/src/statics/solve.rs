@@ -47,6 +47,20 @@ pub(super) fn name_collider(error: lariat_ancf::Error) -> Error {
     }
 }
 
+/// Returns an error of statics with the bodies that nothing holds, or the collider in which a cable
+/// would be.
+fn name_bodies(island: &Island, cables: &[Cable], error: lariat_ancf::Error) -> Error {
+    let not_held = matches!(error, lariat_ancf::Error::NoEquilibrium { failure: EquilibriumFailure::NotHeld, .. });
+    let bodies: Vec<RigidBodyHandle> = island.bodies().collect();
+    if not_held && !bodies.is_empty() {
+        return Error::NotHeldInStatics {
+            bodies,
+            cables: cables.iter().map(|cable| cable.name().to_string()).collect(),
+        };
+    }
+    name_collider(error)
+}
+
 /// Solves an island on copies.
 pub(super) fn solve(
     contents: &mut Contents,
@@ -97,7 +111,8 @@ pub(super) fn solve(
             .collect::<Result<Vec<_>, _>>()?
     } else {
         let mut refs: Vec<&mut Cable> = cables.iter_mut().collect();
-        let report = island::equilibrium(&mut refs, &mut members, links, options).map_err(name_collider)?;
+        let report = island::equilibrium(&mut refs, &mut members, links, options);
+        let report = report.map_err(|error| name_bodies(&island, &cables, error))?;
         vec![report; island.cables.len()]
     };
     out.cables.extend(island.cables.iter().map(|&c| CableHandle(c as u32)).zip(reports));

@@ -185,3 +185,110 @@ fn what_never_rests_is_refused() {
     assert!(matches!(error, Error::ContactInStatics { body, .. } if body == load), "{error}");
     assert_eq!(before, (set.get(cable).unwrap().positions().to_vec(), vector(world.bodies[falls].translation())));
 }
+
+/// Two boxes on a floor or above it, joined by a slack rope that nothing else holds: they come to stand on the floor, the rope hangs between
+/// them, and each carries half of it.
+///
+/// *Source.* The sag of a shallow parabola, s^2 = 3/8 d (l - d), with its distance d and length l; balance of forces.
+#[test]
+fn boxes_that_only_a_rope_joins_stand_on_the_floor() {
+    for (height, mass, slack) in [
+        (0.0, 1000.0, 0.02),
+        (0.0, 30.0, 0.02),
+        (1e-3, 1000.0, 0.02),
+        (-1e-3, 200.0, 0.02),
+        (0.3, 1000.0, 0.02),
+        (3.0, 50.0, 0.01),
+    ] {
+        let mut world = world_with_floor();
+        let mut add = |x: f64| {
+            let body = RigidBodyBuilder::dynamic().translation(Vector::new(x as Real, (0.5 + height) as Real, 0.0));
+            world.insert(body, ColliderBuilder::cuboid(1.0, 0.5, 0.8).mass(mass as Real).friction(0.6)).0
+        };
+        let boxes = [add(0.0), add(6.0)];
+        let mut set = CableSet::new();
+        let [from, to] = [1.0, 5.0].map(|x| Vector3::new(x, 0.5 + height, 0.0));
+        let section = Section::from_stiffness(1e6, 0.05, 0.2).unwrap();
+        let line = Cable::builder().points([from, to]).section(section).elements(12).length(4.0 * (1.0 + slack));
+        let cable = set.insert(line.build().unwrap());
+        for (at, body) in [(At::Start, boxes[0]), (At::End, boxes[1])] {
+            set.attach_here(&world, cable, at, body, AttachmentKind::Ball).unwrap();
+        }
+        let found = set.equilibrium(&mut world).unwrap();
+        let middle = set.get(cable).unwrap().sample(2.0 * (1.0 + slack)).unwrap().position.y;
+        let sag = f64::from(world.bodies[boxes[0]].translation().y) - middle;
+        // the rope draws the boxes a little nearer before friction holds them
+        let [one, two] = boxes.map(|body| f64::from(world.bodies[body].translation().x));
+        let distance = two - one - 2.0;
+        let parabola = (0.375 * distance * (4.0 * (1.0 + slack) - distance)).sqrt();
+        let half = 0.5 * 0.2 * G * 4.0 * (1.0 + slack);
+        let told = format!("{height} m, {mass} kg: sag {sag:.4} m, parabola {parabola:.4} m, {:?}", found.relaxed);
+        println!("{told}");
+        assert!(found.relaxed.is_some() && found.moved == boxes, "{told}");
+        assert!((sag / parabola - 1.0).abs() < 0.02, "{told}");
+        for body in boxes {
+            assert!((world.bodies[body].translation().y - 0.5).abs() < 2e-3, "{told}");
+        }
+        for (_, attachment) in set.attachments() {
+            assert!(
+                (attachment.force().y / -half - 1.0).abs() < 5e-3,
+                "{told}: {} N, half {half} N",
+                attachment.force().y
+            );
+        }
+        assert!(moves(&mut world, &mut set, boxes[0]) < 1e-3, "{told}");
+    }
+}
+
+/// A box on a rope that is slack enough to hang it below a plate over which it is drawn comes to lie on the plate, however thin that is.
+///
+/// *Source.* The plate holds the box.
+#[test]
+fn a_box_lies_on_what_is_below_it() {
+    for (height, thickness, mass) in [(0.1, 0.2, 500.0), (0.3, 0.05, 20.0), (0.5, 1.0, 500.0)] {
+        let mut world = PhysicsWorld::new();
+        let plate = RigidBodyBuilder::fixed().translation(Vector::new(0.0, -0.5 * thickness as Real, 0.0));
+        world.insert(plate, ColliderBuilder::cuboid(20.0, 0.5 * thickness as Real, 20.0).friction(0.6));
+        let load = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, (0.5 + height) as Real, 0.0));
+        let (load, _) = world.insert(load, ColliderBuilder::cuboid(0.5, 0.5, 0.5).mass(mass as Real).friction(0.6));
+        let mut set = CableSet::new();
+        let line = rope(Vector3::new(2.0, 3.0 + height, 0.0), Vector3::new(0.0, 1.0 + height, 0.0), 1e5).length(6.0);
+        let cable = set.insert(line.build().unwrap());
+        set.attach_here(&world, cable, At::End, load, AttachmentKind::Ball).unwrap();
+        let found = set.equilibrium(&mut world).unwrap();
+        let y = world.bodies[load].translation().y;
+        println!("{height} m over {thickness} m: {y} m, {:?}", found.relaxed);
+        assert!(found.relaxed.is_some() && (y - 0.5).abs() < 2e-3, "{y} m, {found:?}");
+    }
+}
+
+/// Boxes that a rope joins, over nothing and beside a floor: the error names them, not the rope alone, and all stays as it is.
+///
+/// *Source.* The contract.
+#[test]
+fn boxes_that_nothing_holds_are_named() {
+    for beside in [false, true] {
+        let mut world = PhysicsWorld::new();
+        if beside {
+            let floor = RigidBodyBuilder::fixed().translation(Vector::new(20.0, -0.5, 0.0));
+            world.insert(floor, ColliderBuilder::cuboid(5.0, 0.5, 5.0));
+        }
+        let mut add = |x: Real| {
+            let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, 0.5, 0.0));
+            world.insert(body, ColliderBuilder::cuboid(0.5, 0.5, 0.5).mass(10.0)).0
+        };
+        let boxes = [add(0.0), add(3.0)];
+        let mut set = CableSet::new();
+        let line = Cable::builder().points([Vector3::new(0.5, 0.5, 0.0), Vector3::new(2.5, 0.5, 0.0)]);
+        let section = Section::from_stiffness(1e5, 0.05, 0.2).unwrap();
+        let cable = set.insert(line.section(section).length(2.1).name("tow").build().unwrap());
+        for (at, body) in [(At::Start, boxes[0]), (At::End, boxes[1])] {
+            set.attach_here(&world, cable, at, body, AttachmentKind::Ball).unwrap();
+        }
+        let before = *world.bodies[boxes[0]].position();
+        let error = set.equilibrium(&mut world).unwrap_err();
+        println!("{error}");
+        assert!(matches!(&error, Error::NotHeldInStatics { bodies, cables } if *bodies == boxes && *cables == ["tow"]));
+        assert_eq!(*world.bodies[boxes[0]].position(), before);
+    }
+}

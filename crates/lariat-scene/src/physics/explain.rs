@@ -29,6 +29,17 @@ impl Physics {
                 );
                 Error::Body { time, body: name(body).unwrap_or_default(), problem }
             }
+            lariat_rapier::Error::NotHeldInStatics { bodies, .. } => {
+                let names: Vec<String> = bodies.iter().filter_map(|body| name(*body)).collect();
+                let others = match &names[..] {
+                    [_, others @ ..] if !others.is_empty() => format!(", nor {}", others.join(", ")),
+                    _ => String::new(),
+                };
+                let problem = format!(
+                    "nothing holds it{others}: attach one of its cables to what stays where it is, or put something below on which it comes to rest"
+                );
+                Error::Body { time, body: names.into_iter().next().unwrap_or_default(), problem }
+            }
             lariat_rapier::Error::CableTouchesInStatics { cable, collider, arc_length, depth } => {
                 let body = self.world.colliders.get(collider).and_then(|c| name(c.parent()?)).unwrap_or_default();
                 let problem = format!(
