@@ -1,6 +1,6 @@
 //! `kinks` of a cable: its slope is free on both sides of a load, a junction or a ball attachment.
 
-use lariat_scene::run::{Options, Recording, collect};
+use lariat_scene::run::{Options, Recording, World, collect};
 use lariat_scene::{Error, Purpose, Scene, Warning};
 
 fn parse(text: &str, purpose: Purpose) -> Result<Scene, Error> {
@@ -171,6 +171,14 @@ fn a_mesh_that_statics_choose_is_right_at_any_stiffness() {
             errors.push(off(&points(&chosen), &exact));
             if elements == 8 {
                 run(&text, Purpose::Run);
+                // a program that builds the world has the same mesh
+                let world = World::build(&parse(&text, Purpose::Static).unwrap()).unwrap();
+                let built: Vec<usize> = world.cables().iter().map(|cable| cable.elements().len()).collect();
+                let chosen: Vec<usize> = chosen.world.cables().iter().map(|cable| cable.elements().len()).collect();
+                assert!(
+                    built == chosen && (share >= 1.0 || built.iter().sum::<usize>() != 8 || built.len() > 1),
+                    "{built:?} {chosen:?}"
+                );
             }
         }
         println!("sqrt(EI/T) = {share} h: {errors:?} m");

@@ -93,7 +93,7 @@ fn off(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 enum Corner {
     /// A kink.
     Kink,
-    /// Elements of `2 sqrt(EI/T)` at the load, which grow from there to those of the even mesh by about 2.
+    /// What statics choose: elements of `2 sqrt(EI/T)` at the load, or a kink.
     Auto,
     /// Nothing.
     Even,

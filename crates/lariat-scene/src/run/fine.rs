@@ -74,7 +74,7 @@ impl Meshes {
 /// Returns a scene with the meshes that statics choose, if there are any.
 ///
 /// # Errors
-/// [`Error::NoChosenMesh`] of a scene without equilibrium, and those of [`World::build`].
+/// [`Error::NoChosenMesh`] of a scene without equilibrium, and those of [`World::drawn`].
 pub(super) fn with_chosen(scene: &Scene) -> Result<Cow<'_, Scene>, Error> {
     let chosen = |index: usize| scene.cables[index].fine == Fine::ByStatics;
     let Some(first) = (0..scene.cables.len()).find(|&index| chosen(index)) else {
@@ -83,7 +83,7 @@ pub(super) fn with_chosen(scene: &Scene) -> Result<Cow<'_, Scene>, Error> {
     let name = scene.cables[first].name.clone();
     let mut scene = scene.clone();
     scene.cables.iter_mut().filter(|cable| cable.fine == Fine::ByStatics).for_each(|cable| cable.nodes_at_loads = true);
-    let mut world = World::build(&scene)?;
+    let mut world = World::drawn(&scene)?;
     let started = world.start(Purpose::Static);
     started.map_err(|source| Error::NoChosenMesh { cable: name, source: Box::new(source) })?;
     Ok(Cow::Owned(refined(&world, chosen)))

@@ -1,7 +1,6 @@
 //! The world of a scene at its start, for a program that steps it itself.
 
 use super::World;
-use super::fine::with_chosen;
 use crate::error::Error;
 use crate::physics::{Parts, Physics};
 use crate::scene::{Purpose, Scene};
@@ -16,7 +15,6 @@ impl Parts {
         if let Some(cable) = scene.cables.iter().find(|cable| cable.breaking.cut.is_some()) {
             return Err(Error::TimedCut { cable: cable.name.clone() });
         }
-        let scene = &*with_chosen(scene)?;
         let mut world = World::build(scene)?;
         world.start(Purpose::Run)?;
         let told = world.told();

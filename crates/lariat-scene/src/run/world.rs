@@ -1,5 +1,6 @@
 //! The cables and bodies of a scene while it runs.
 
+use super::fine::with_chosen;
 use super::{BodyStatics, CableStatics, Parted};
 use crate::error::Error;
 use crate::physics::Physics;
@@ -40,11 +41,19 @@ pub struct World {
 }
 
 impl World {
-    /// Builds the cables and bodies of a scene as drawn.
+    /// Builds the cables and bodies of a scene as drawn, on the meshes that statics choose where it says so.
+    ///
+    /// # Errors
+    /// [`Error::NoChosenMesh`] where such a scene has no equilibrium; [`Error::Mechanics`], [`Error::Body`], not for a checked scene.
+    pub fn build(scene: &Scene) -> Result<Self, Error> {
+        Self::drawn(with_chosen(scene)?.as_ref())
+    }
+
+    /// Builds them on the meshes of the scene; those that statics are to choose are even.
     ///
     /// # Errors
     /// [`Error::Mechanics`], [`Error::Body`]; not for a checked scene.
-    pub fn build(scene: &Scene) -> Result<Self, Error> {
+    pub(super) fn drawn(scene: &Scene) -> Result<Self, Error> {
         let cables = (0..scene.cables.len()).map(|i| scene.build_cable(i)).collect::<Result<Vec<_>, _>>()?;
         let physics = match scene.engine {
             Engine::None => None,
