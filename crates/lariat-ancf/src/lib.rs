@@ -109,7 +109,7 @@ pub use point::Point;
 pub use real::Real;
 pub use reel::{Feed, Reel};
 pub use rule::{AxialRule, BendingRule, Rule};
-pub use section::{Element, Section, Shape};
+pub use section::{Element, Make, Section, Shape};
 pub use statics::{EquilibriumOptions, EquilibriumReport};
 pub use step::{FleetError, step_all};
 pub use strength::{Break, BreakCause, Load, Strength};

@@ -36,7 +36,7 @@
 
 use crate::error::{Error, require};
 use crate::scales::cable::LARGEST_ROPE;
-use crate::section::Section;
+use crate::section::{Make, Section};
 use serde::{Deserialize, Serialize};
 
 /// What a rope or chain is made of.
@@ -104,7 +104,7 @@ impl RopeMaterial {
         let area = mass / solid;
         let mut section = Section::from_stiffness(axial, 0.0, mass)?;
         let outer = if self == RopeMaterial::Chain { (4.0 * area / std::f64::consts::PI).sqrt() } else { diameter };
-        (section.diameter, section.outer_area, section.rope) = (Some(outer), Some(area), true);
+        (section.diameter, section.outer_area, section.make) = (Some(outer), Some(area), Make::Rope);
         Ok(section)
     }
 

@@ -29,14 +29,23 @@ pub struct Section {
     /// Area inside the outer outline in m^2, if a shape was given: for buoyancy.
     #[serde(default)]
     pub outer_area: Option<f64>,
-    /// Young's modulus in Pa, if a shape was given: for [warnings](crate::warning).
+    /// What it is the section of.
     #[serde(default)]
-    pub youngs_modulus: Option<f64>,
-    /// Whether it is that of a rope or chain: its EA is force over elongation, and it folds rather
-    /// than be pushed. A cable of such sections has the axial law [`Rope`](crate::AxialLaw::Rope),
-    /// unless it has another one.
-    #[serde(default)]
-    pub rope: bool,
+    pub make: Make,
+}
+
+/// What a section is that of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Make {
+    /// Anything: its stiffnesses were measured.
+    #[default]
+    Unknown,
+    /// A solid of this Young's modulus in Pa: for [warnings](crate::warning).
+    Solid(f64),
+    /// A rope or chain: its EA is force over elongation, and it folds rather than be pushed. A cable
+    /// of such sections has the axial law [`Rope`](crate::AxialLaw::Rope), unless it has another
+    /// one.
+    Rope,
 }
 
 /// One element: unstretched length in m and section.
@@ -117,7 +126,7 @@ impl Section {
         )?;
         section.diameter = Some(shape.outer());
         section.outer_area = Some(shape.outer_area());
-        section.youngs_modulus = Some(youngs_modulus);
+        section.make = Make::Solid(youngs_modulus);
         Ok(section)
     }
 
@@ -139,8 +148,16 @@ impl Section {
             Self::from_stiffness(1.0e11 * metal, 2.06e11 * metal * wire * wire / 16.0, 4.09e3 * diameter * diameter)?;
         section.diameter = Some(diameter);
         section.outer_area = Some(Shape::Round(diameter).area());
-        section.rope = true;
+        section.make = Make::Rope;
         Ok(section)
+    }
+
+    /// Returns Young's modulus in Pa of the section of a solid.
+    pub fn youngs_modulus(&self) -> Option<f64> {
+        match self.make {
+            Make::Solid(modulus) => Some(modulus),
+            Make::Unknown | Make::Rope => None,
+        }
     }
 
     /// The same, if its numbers are in range.
@@ -190,8 +207,7 @@ impl Section {
             mass_per_length,
             diameter: None,
             outer_area: None,
-            youngs_modulus: None,
-            rope: false,
+            make: Make::Unknown,
         }
         .checked()
     }

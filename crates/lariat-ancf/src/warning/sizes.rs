@@ -39,7 +39,7 @@ pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<
     };
     let slow = section.axial_stiffness < SLOWEST * SLOWEST * section.mass_per_length;
     let light = light(cable, section);
-    let soft = section.youngs_modulus.filter(|modulus| *modulus < SOFTEST || slow);
+    let soft = section.youngs_modulus().filter(|modulus| *modulus < SOFTEST || slow);
     let material = soft.map(|youngs_modulus_pa| Warning::SoftMaterial { cable: name(), youngs_modulus_pa });
     shape.into_iter().chain(material).chain(light)
 }
@@ -98,7 +98,7 @@ pub fn elements(cable: &str, section: &Section, length_m: f64, element_m: f64) -
 fn light(cable: &str, section: &Section) -> Option<Warning> {
     let (axial_stiffness_n, mass_per_length_kg_m) = (section.axial_stiffness, section.mass_per_length);
     let wave_speed_m_s = (axial_stiffness_n / mass_per_length_kg_m).sqrt();
-    let Some(modulus) = section.youngs_modulus else {
+    let Some(modulus) = section.youngs_modulus() else {
         let cable = cable.to_string();
         let waves = Warning::FastWaves { cable, axial_stiffness_n, mass_per_length_kg_m, wave_speed_m_s };
         return (wave_speed_m_s > FASTEST).then_some(waves);

@@ -2,7 +2,7 @@
 
 use crate::handle::{AttachmentHandle, CableHandle};
 use crate::scales::set::ROPE_DAMPING;
-use lariat_ancf::{At, Cable, Damping, Fidelity, Point, RopeMaterial, Section, Vector3};
+use lariat_ancf::{At, AxialLaw, Cable, Damping, Effects, Fidelity, Point, RopeMaterial, Section, Vector3};
 use rapier::math::Vector;
 
 /// What a rope is made of, how slack it is, and what it bears: the description of the usual rope,
@@ -106,7 +106,7 @@ impl Rope {
         fidelity: Fidelity,
     ) -> Result<Cable, lariat_ancf::Error> {
         let length = self.length(&from.point, &to.point);
-        let section = Section { rope: true, ..self.section.clone()? };
+        let section = self.section.clone()?;
         let wave_speed = (section.axial_stiffness / section.mass_per_length).sqrt();
         let mut builder = Cable::builder()
             .name(self.name.as_str())
@@ -118,6 +118,9 @@ impl Rope {
             Some(own) => builder.fidelity(own),
             None => builder.rule(fidelity.rule()),
         };
+        let rule = self.fidelity.unwrap_or(fidelity).rule();
+        let axial_law = AxialLaw::of_rope(&Effects::default(), rule);
+        builder = builder.effects(Effects { axial_law, ..Effects::default() });
         if length > 0.0 {
             // a length that is not positive is an error of the builder
             let first_mode = core::f64::consts::FRAC_PI_2 * wave_speed / length;
