@@ -55,7 +55,7 @@ impl Cable {
     /// remembered.
     pub(crate) fn count_passage(&mut self, arc_length_m: f64, through: Through) {
         if self.diagnostics.crossed_steps == 0 {
-            self.passage = Some(Passage { time_s: self.time(), arc_length_m, through });
+            self.passage = Some(Box::new(Passage { time_s: self.time(), arc_length_m, through }));
         }
         self.diagnostics.crossed_steps += 1;
     }

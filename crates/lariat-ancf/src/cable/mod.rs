@@ -117,7 +117,7 @@ pub struct Cable {
     pub(crate) watch: Option<Box<Watch>>,
     /// The first of the [steps](Diagnostics::crossed_steps) in which it passed through what it can
     /// touch.
-    pub(crate) passage: Option<Passage>,
+    pub(crate) passage: Option<Box<Passage>>,
     /// Force in N that the rounding of what holds it may make in a host step, if it is straight.
     pub(crate) end_noise: f64,
     /// Time in s at which an obstacle was last moved by its pose alone, its key, and by how far in

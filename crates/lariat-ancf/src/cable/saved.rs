@@ -23,7 +23,7 @@ pub(super) struct Saved {
     #[serde(default)]
     watch: Option<Box<Watch>>,
     #[serde(default)]
-    passage: Option<Passage>,
+    passage: Option<Box<Passage>>,
 }
 
 impl From<Cable> for Saved {

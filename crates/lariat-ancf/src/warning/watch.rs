@@ -235,7 +235,7 @@ impl Watch {
 
     fn crossed(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let steps = cable.diagnostics().crossed_steps;
-        let first = || cable.passage.clone();
+        let first = || cable.passage.as_deref().cloned();
         (steps > 0).then(|| Warning::PassedThrough { cable: cable.name().to_string(), steps, first: first() })
     }
 }
