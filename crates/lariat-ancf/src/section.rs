@@ -42,9 +42,9 @@ pub enum Make {
     Unknown,
     /// A solid of this Young's modulus in Pa: for [warnings](crate::warning).
     Solid(f64),
-    /// A rope or chain: its EA is force over elongation, and it folds rather than be pushed. A cable
-    /// of such sections has the axial law [`Rope`](crate::AxialLaw::Rope), unless it has another
-    /// one.
+    /// A rope or chain: its EA is force over elongation, and it folds rather than be pushed. A
+    /// cable of such sections has the axial law [`Rope`](crate::AxialLaw::Rope), unless it has
+    /// another one.
     Rope,
 }
 

@@ -155,10 +155,10 @@ fn a_rope_stays_on_what_it_sets_a_load_down_from() {
             let Landing { gaps, residuals, weight, pull, speed } = landing;
             let step = f64::from(1.0 / case.host_steps).min(1.0 / 60.0);
             let energy = 0.5 * f64::from(case.mass) * speed * speed;
-            assert!(gaps[0] < 1e-9 && gaps[1] < 0.3 * speed * step, "{told}");
+            // the load is off its prediction by no more than its way in a step
+            assert!(gaps[0] < 1e-9 && gaps[1] < speed * step, "{told}");
             assert!(residuals[0] < 1e-6 * energy && residuals[1] < 0.2 * energy, "{told}");
-            // a light load lets the straight rope be pushed, which does not buckle at once
-            assert!(pull < 1.25 * weight || case.mass < 500.0, "{told}");
+            assert!(pull < 1.25 * weight, "{told}");
         }
     }
 }
