@@ -10,8 +10,8 @@ use pyo3::types::PyTuple;
 /// Measured stiffness: EA in N (> 0), EI in N m^2 (>= 0), mass per unstretched length in kg/m (>
 /// 0).
 ///
-/// ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy. Raises
-/// InvalidValueError.
+/// ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy; a ``rope`` cannot
+/// push. Raises InvalidValueError.
 #[pyclass(frozen, module = "lariat_cables")]
 #[derive(Clone)]
 pub struct Section(pub ancf::Section);
@@ -29,13 +29,14 @@ fn named(material: &str) -> PyResult<ancf::RopeMaterial> {
 #[pymethods]
 impl Section {
     #[new]
-    #[pyo3(signature = (axial_stiffness, bending_stiffness, mass_per_length, *, diameter=None, outer_area=None))]
+    #[pyo3(signature = (axial_stiffness, bending_stiffness, mass_per_length, *, diameter=None, outer_area=None, rope=false))]
     fn new(
         axial_stiffness: f64,
         bending_stiffness: f64,
         mass_per_length: f64,
         diameter: Option<f64>,
         outer_area: Option<f64>,
+        rope: bool,
     ) -> PyResult<Self> {
         for (what, value) in [("diameter (m)", diameter), ("outer area (m^2)", outer_area)] {
             if let Some(value) = value.filter(|x| !(x.is_finite() && *x > 0.0)) {
@@ -44,7 +45,8 @@ impl Section {
             }
         }
         let section = made(ancf::Section::from_stiffness(axial_stiffness, bending_stiffness, mass_per_length))?.0;
-        Ok(Section(ancf::Section { diameter, outer_area, ..section }))
+        let make = if rope { ancf::Make::Rope } else { ancf::Make::Unknown };
+        Ok(Section(ancf::Section { diameter, outer_area, make, ..section }))
     }
 
     /// A solid round section: m, Pa, kg/m^3. Raises InvalidValueError.
@@ -133,7 +135,8 @@ impl Section {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let s = &slf.get().0;
-        let numbers = (s.axial_stiffness, s.bending_stiffness, s.mass_per_length, s.diameter, s.outer_area);
+        let rope = s.make == ancf::Make::Rope;
+        let numbers = (s.axial_stiffness, s.bending_stiffness, s.mass_per_length, s.diameter, s.outer_area, rope);
         let restore = slf.py().import("lariat_cables.results")?.getattr("section")?;
         Ok((restore, numbers.into_pyobject(slf.py())?))
     }

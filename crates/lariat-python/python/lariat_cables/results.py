@@ -368,11 +368,13 @@ class RigidBodyHandle(NamedTuple):
     generation: int
 
 
-def section(axial: float, bending: float, mass: float, diameter: float | None, outer_area: float | None) -> Section:
+def section(
+    axial: float, bending: float, mass: float, diameter: float | None, outer_area: float | None, rope: bool = False
+) -> Section:
     """Restores a pickled section."""
     from lariat_cables import Section
 
-    return Section(axial, bending, mass, diameter=diameter, outer_area=outer_area)
+    return Section(axial, bending, mass, diameter=diameter, outer_area=outer_area, rope=rope)
 
 
 def _document() -> None:
