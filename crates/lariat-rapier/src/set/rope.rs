@@ -114,11 +114,11 @@ impl Rope {
             .length(length)
             .section(section)
             .elements(self.elements);
+        let rule = self.fidelity.unwrap_or(fidelity).rule();
         builder = match self.fidelity {
             Some(own) => builder.fidelity(own),
-            None => builder.rule(fidelity.rule()),
+            None => builder.rule(rule),
         };
-        let rule = self.fidelity.unwrap_or(fidelity).rule();
         let axial_law = AxialLaw::of_rope(&Effects::default(), rule);
         builder = builder.effects(Effects { axial_law, ..Effects::default() });
         if length > 0.0 {

@@ -24,7 +24,7 @@ use std::borrow::Cow;
 /// Largest elements of the first mesh at a point, over the length within which the cable bends there. Measured: a moment is read
 /// within 5 % beside such elements and within 2 % beside those of the next mesh (tests/error_forces.rs).
 const FIRST_FINEST: f64 = 4.0;
-/// The same of a mesh that statics choose. Measured: points are at most 1.5e-3 m off on a cable of 11 m (docs/accuracy/kinks.csv).
+/// The same of a mesh that statics choose. Measured: points are at most 2.5e-3 m off on a cable of 11 m with 4 elements (docs/accuracy/kinks.csv).
 const CHOSEN_FINEST: f64 = 2.0;
 /// Least elements at a point over the even ones. Derived: what a corner without a hinge takes of the length is of the first order in
 /// them, and so a thousandth of what even ones take.

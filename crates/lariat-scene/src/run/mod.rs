@@ -140,7 +140,7 @@ fn conduct(scene: &Scene, open: Open<'_>, purpose: Purpose, options: &mut Option
             Err(Error::State { problem })
         }
         Some(target) => error_target::conduct(scene, open, purpose, target, options),
-        None => Ok(simulate(fine::with_chosen(scene)?.as_ref(), open, purpose, options, None)?.finish(None)),
+        None => Ok(simulate(scene, open, purpose, options, None)?.finish(None)),
     }
 }
 
