@@ -235,7 +235,7 @@ fn simulate(
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let mut world = World::build(scene)?;
     // a scene that cannot be built leaves nothing in the folder
-    let mut output = open(scene)?;
+    let mut output = open(&world.scene)?;
     let mut watch = Watch::new(&world, purpose);
     world.warn_level = options.warn_level;
     let mut told: Vec<String> = Vec::new();
