@@ -349,6 +349,10 @@ pub(crate) mod read {
     /// Unknown: lines between them find what is thinner.
     pub(crate) const POINTS: usize = 4;
 
+    /// Places of a drawn and a found line that are matched with each other. Unknown: it bounds the
+    /// cost, of its square.
+    pub(crate) const MATCHED: usize = 400;
+
     /// Largest product of the normals of two faces that are opposite. Derived: those of an edge of
     /// 60 degrees.
     pub(crate) const OPPOSITE: rapier::math::Real = -0.5;

@@ -17,8 +17,9 @@
 //! left out. Samples do not see what is thinner than their spacing, nor sharp edges between them:
 //! the shape is compared with all surfaces in the end, and refused where the centre line runs
 //! through one; where the cable is a part of its radius deep between samples, the warning `sinks`
-//! tells. The search is no motion: a cable that begins behind a thin obstacle may end on its other
-//! side. Within four radii of a held node, and as much further as it is deep, there is no contact.
+//! tells. A step of the search that takes a sample through an obstacle is not taken
+//! ([`StaticContact::passes`]); what passes between samples may end on the other side. Within four
+//! radii of a held node, and as much further as it is deep, there is no contact.
 //!
 //! # References
 //!
@@ -31,6 +32,7 @@
 
 use super::law::NormalLaw;
 use super::pair::{is_thin, samples};
+use crate::effect::Contact;
 use crate::element::assembly::add_tangent;
 use crate::element::shape;
 use crate::element::shape::combine;
@@ -39,6 +41,7 @@ use crate::model::LoadScale;
 use crate::model::Model;
 use crate::obstacle::Obstacle;
 use crate::obstacle::Patch;
+use crate::obstacle::trace;
 use crate::scales::contact::{APART, LEAST_GROWTH, MOST_GROWTH};
 use crate::state::ContactMemory;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
@@ -128,13 +131,13 @@ impl StaticContact {
         deep
     }
 
-    /// Softens the law, so that the loads per length have the depth in which the cable is at `q`,
-    /// or that of a radius. Returns whether there is anything to touch.
-    pub fn soften(&mut self, model: &Model, q: &[f64]) -> bool {
+    /// Softens the law, so that the loads per length have a share of the depth in which the cable
+    /// is at `q`, or of a radius. Returns whether there is anything to touch.
+    pub fn soften(&mut self, model: &Model, q: &[f64], share: f64) -> bool {
         let Some(contact) = model.effects.contact.filter(|_| self.on) else { return false };
         let mut deepest = model.elements.iter().map(|e| contact.radius_of(&e.section)).fold(0.0, f64::max);
         self.visit(model, q, |sample| deepest = deepest.max(sample.depth));
-        (self.load, self.depth) = (LoadScale::new(model, q).force / model.length(), deepest);
+        (self.load, self.depth) = (LoadScale::new(model, q).force / model.length(), share * deepest);
         true
     }
 
@@ -149,6 +152,31 @@ impl StaticContact {
             self.depth = 0.0;
         }
         Some(before)
+    }
+
+    /// Returns whether a sample goes through an obstacle on the straight way from coordinates to
+    /// others: into a side, and to where an opposite one is nearer.
+    pub fn passes(&self, model: &Model, from: &[f64], to: &[f64]) -> bool {
+        let mut passes = false;
+        self.visit_samples(model, to, Some(from), |place| {
+            let [start, end] =
+                [from, to].map(|q| own(place.obstacle, self.time, &combine(q, place.element, &place.shape)).0);
+            let (way, surface) = (end - start, &*place.obstacle.surface);
+            let first = surface.nearest(&start);
+            if passes || first.distance - place.reach >= way.norm() {
+                return;
+            }
+            let entered = if first.distance <= place.reach {
+                Some(first)
+            } else {
+                trace(surface, [&start, &end], place.reach, |_| true)
+            };
+            let Some(entered) = entered else { return };
+            let [inward, outward] =
+                [(entered.patch, &start), (surface.nearest(&end).patch, &end)].map(|(patch, y)| patch.gap(y).1);
+            passes = inward.dot(&way) < 0.0 && inward.dot(&outward) < 0.0;
+        });
+        passes
     }
 
     /// Returns to the law in which the loads have a depth (m).
@@ -189,6 +217,29 @@ impl StaticContact {
         sum
     }
 
+    /// Returns the largest force in N by which an obstacle holds the cable at `q` along itself, of
+    /// which contact without friction has none, with the key of the obstacle and the arc length in
+    /// m where it does so most.
+    pub fn snag(&self, model: &Model, q: &[f64]) -> Option<(u64, f64, f64)> {
+        let mut of_obstacles: Vec<(u64, f64, [f64; 2])> = Vec::new();
+        self.visit(model, q, |sample| {
+            let length = model.elements[sample.element].length;
+            let tangent = combine(q, sample.element, &shape::slope(sample.xi, length)).normalize();
+            let (key, force) = (sample.obstacle.key, sample.force * sample.normal.dot(&tangent));
+            let begin: f64 = model.elements[..sample.element].iter().map(|element| element.length).sum();
+            let here = [force.abs(), begin + sample.xi * length];
+            match of_obstacles.iter_mut().find(|(own, ..)| *own == key) {
+                Some((_, sum, most)) => {
+                    *sum += force;
+                    *most = if here[0] > most[0] { here } else { *most };
+                }
+                None => of_obstacles.push((key, force, here)),
+            }
+        });
+        let largest = of_obstacles.into_iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some((largest.0, largest.2[1], largest.1.abs()))
+    }
+
     /// Remembers the contacts at `q`, from which motion goes on.
     pub fn remember(&self, model: &Model, q: &[f64], memory: &mut Vec<ContactMemory>) {
         memory.clear();
@@ -222,63 +273,95 @@ impl StaticContact {
 
     /// Calls `f` with every sample that is in an obstacle.
     fn visit(&self, model: &Model, q: &[f64], mut f: impl FnMut(&Sample<'_>)) {
+        self.visit_samples(model, q, None, |place| {
+            let Place { element, place, xi, shape, weight, obstacle, reach, radius, contact } = *place;
+            let section = &model.elements[element];
+            let (y, axes) = own(obstacle, self.time, &combine(q, element, &shape));
+            let nearest = obstacle.surface.nearest(&y);
+            let (gap, normal) = nearest.patch.gap(&y);
+            let depth = reach - gap;
+            if depth <= 0.0 {
+                return;
+            }
+            let law = NormalLaw::of(&contact, &section.section);
+            let law = if self.depth > 0.0 { law.softened(self.load, self.depth) } else { law };
+            let pressure = law.at(depth);
+            f(&Sample {
+                element,
+                place,
+                xi,
+                shape,
+                weight,
+                obstacle,
+                patch: nearest.patch,
+                thin: is_thin(&nearest, radius, section.length),
+                reach,
+                depth,
+                normal: axes * normal,
+                axes,
+                force: weight * pressure.force,
+                slope: weight * pressure.slope,
+                energy: weight * pressure.energy,
+            });
+        });
+    }
+
+    /// Calls `f` with every sample of elements that may be in an obstacle, at coordinates, or on
+    /// the way to them from others.
+    fn visit_samples(&self, model: &Model, q: &[f64], from: Option<&[f64]>, mut f: impl FnMut(&Place<'_>)) {
         let Some(contact) = model.effects.contact.filter(|_| self.on) else { return };
         let mut begin = 0.0;
         for (element, section) in model.elements.iter().enumerate() {
-            let from = begin;
+            let start = begin;
             begin += section.length;
             if model.is_at_eye(element) {
                 continue;
             }
-            let (radius, law) = (contact.radius_of(&section.section), NormalLaw::of(&contact, &section.section));
-            let law = if self.depth > 0.0 { law.softened(self.load, self.depth) } else { law };
-            let third = section.length / 3.0;
-            let d: [Vector3<f64>; 4] =
-                core::array::from_fn(|k| Vector3::from_column_slice(&q[6 * element + 3 * k..6 * element + 3 * k + 3]));
-            let corners = [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]];
-            let centre = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
-            let size = corners.iter().fold(0.0, |most: f64, x| most.max((x - centre).norm()));
+            let radius = contact.radius_of(&section.section);
+            let (centre, mut size) = ball(q, element, section.length);
+            if let Some((before, own)) = from.map(|from| ball(from, element, section.length)) {
+                size = size.max(own + (before - centre).norm());
+            }
             for (i, obstacle) in model.obstacles.0.iter().enumerate().filter(|(_, obstacle)| obstacle.mount.is_none()) {
                 let reach = radius + obstacle.skin;
                 if obstacle.surface.nearest(&own(obstacle, self.time, &centre).0).distance > size + reach {
                     continue;
                 }
                 for (place, xi, weight) in samples(&contact, model, element) {
-                    let at = from + xi * section.length;
+                    let at = start + xi * section.length;
                     let held = self.held.iter().any(|(k, [low, high])| *k == i && (*low..=*high).contains(&at));
-                    if held || obstacle.excepts(at) {
-                        continue;
+                    if !held && !obstacle.excepts(at) {
+                        let shape = shape::position(xi, section.length);
+                        f(&Place { element, place, xi, shape, weight, obstacle, reach, radius, contact });
                     }
-                    let shape = shape::position(xi, section.length);
-                    let (y, axes) = own(obstacle, self.time, &combine(q, element, &shape));
-                    let nearest = obstacle.surface.nearest(&y);
-                    let (gap, normal) = nearest.patch.gap(&y);
-                    let depth = reach - gap;
-                    if depth <= 0.0 {
-                        continue;
-                    }
-                    let pressure = law.at(depth);
-                    f(&Sample {
-                        element,
-                        place,
-                        xi,
-                        shape,
-                        weight,
-                        obstacle,
-                        patch: nearest.patch,
-                        thin: is_thin(&nearest, radius, section.length),
-                        reach,
-                        depth,
-                        normal: axes * normal,
-                        axes,
-                        force: weight * pressure.force,
-                        slope: weight * pressure.slope,
-                        energy: weight * pressure.energy,
-                    });
                 }
             }
         }
     }
+}
+
+/// A place of a cable that may touch an obstacle.
+struct Place<'a> {
+    element: usize,
+    place: u32,
+    xi: f64,
+    shape: [f64; 4],
+    weight: f64,
+    obstacle: &'a Obstacle,
+    /// Gap at which it touches, and of it the radius of the cable.
+    reach: f64,
+    radius: f64,
+    contact: Contact,
+}
+
+/// Returns the centre and the radius of a ball about an element at coordinates.
+fn ball(q: &[f64], element: usize, length: f64) -> (Vector3<f64>, f64) {
+    let third = length / 3.0;
+    let d: [Vector3<f64>; 4] =
+        core::array::from_fn(|k| Vector3::from_column_slice(&q[6 * element + 3 * k..6 * element + 3 * k + 3]));
+    let corners = [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]];
+    let centre = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
+    (centre, corners.iter().fold(0.0, |most: f64, x| most.max((x - centre).norm())))
 }
 
 impl Sample<'_> {

@@ -121,6 +121,20 @@ pub enum EquilibriumFailure {
         /// Depth in m.
         depth: f64,
     },
+    /// It bends about a sharp edge, which the samples of contact hold along the cable, where
+    /// nothing without friction could.
+    #[error(
+        "the cable bends about a sharp edge of obstacle {obstacle} at {arc_length:.4} m, which would hold {force:.3e} N along it without friction: statics compute \
+         contact at samples, which do not slide over sharp edges: round the edge, or begin as drawn and let it come to rest"
+    )]
+    Snags {
+        /// Key of the obstacle.
+        obstacle: u64,
+        /// Arc length in m.
+        arc_length: f64,
+        /// The force in N.
+        force: f64,
+    },
     /// A reel would slip in the shape that was found: its brake, clutch or free spool holds less
     /// than the cable pulls.
     #[error(
@@ -145,8 +159,8 @@ impl EquilibriumFailure {
     /// Returns whether it tells of a shape that was found, or that there is none: no other search
     /// helps.
     pub(crate) fn is_final(&self) -> bool {
-        use EquilibriumFailure::{NotHeld, Slips, Touches};
-        matches!(self, NotHeld | Touches { .. } | Slips { .. })
+        use EquilibriumFailure::{NotHeld, Slips, Snags, Touches};
+        matches!(self, NotHeld | Touches { .. } | Snags { .. } | Slips { .. })
     }
 }
 

@@ -173,6 +173,17 @@ pub(crate) const ISLAND_STAGNATION: f64 = 1e-8;
 /// equilibria.
 pub(crate) const AT_REST: f64 = 1e-8;
 
+/// Shares of the depth in which cables are that loads have in the first, softened law of contact.
+/// Derived: loads act over a radius R, and not all of the length L, so that they have up to L/R
+/// times the depth of their mean; a law in which that is more than what they press on is thick lets
+/// them through.
+pub(crate) const SOFTNESS: [f64; 4] = [1.0, 1e-1, 1e-2, 1e-3];
+
+/// Largest force with which an obstacle may hold a cable along itself without friction, as a share
+/// of the tension. Measured: 2e-3 on a rounded edge of 33 rope radii with 40 elements, 0.86 on a
+/// sharp one (`a_rope_stays_on_the_side_on_which_it_was_drawn`).
+pub(crate) const SNAG: f64 = 0.05;
+
 /// Displacement that leaves a saddle, as a share of the length. Unknown: enough to leave it,
 /// without another shape.
 pub(crate) const SHAKE: f64 = 1e-3;

@@ -4,8 +4,9 @@
 //!
 //! The law is stiff, and which samples touch is not known. A search that begins deep in an
 //! obstacle, or that finds no shape, begins with a law so soft that the loads per length have the
-//! depth in which the cables are; then the law is made up to ten times as stiff, less where that
-//! fails, and so on up to the law itself. Without contact there is one search.
+//! depth in which the cables are, or a share of it, where that lets them through what they press
+//! on; then the law is made up to ten times as stiff, less where that fails, and so on up to the
+//! law itself. Without contact there is one search.
 //!
 //! # References
 //!
@@ -13,6 +14,7 @@
 
 use crate::cable::Cable;
 use crate::contact::Growth;
+use crate::scales::statics::SOFTNESS;
 
 /// A search for equilibrium, over the law of contact of its cables.
 pub(crate) trait Continued {
@@ -21,7 +23,7 @@ pub(crate) trait Continued {
     /// Why nothing is.
     type Failure;
     /// A shape to return to.
-    type Shape;
+    type Shape: Clone;
 
     /// Searches from the present shape.
     fn search(&mut self) -> Result<Self::Found, Self::Failure>;
@@ -68,21 +70,27 @@ pub(crate) fn find<S: Continued>(search: &mut S) -> Result<S::Found, S::Failure>
     let mut deep = false;
     search.for_each(|cable, q| deep |= cable.system.static_contact.is_deep(&cable.model, q));
     let start = search.shape();
-    let mut found = match (!deep).then(|| search_by_laws(search)) {
-        Some(Ok(found)) => found,
-        failed => {
-            let end = search.shape();
-            search.restore(start);
-            let mut softened = false;
-            search.for_each(|cable, q| softened |= cable.system.static_contact.soften(&cable.model, q));
-            match failed {
-                Some(Err(failure)) if !softened => {
-                    // the shape in which it failed tells why
-                    search.restore(end);
-                    return Err(failure);
-                }
-                _ => search_by_laws(search)?,
-            }
+    let mut outcome = (!deep).then(|| search_by_laws(search));
+    let mut end = None;
+    for share in SOFTNESS {
+        if matches!(outcome, Some(Ok(_))) {
+            break;
+        }
+        end.get_or_insert_with(|| search.shape());
+        search.restore(start.clone());
+        let mut softened = false;
+        search.for_each(|cable, q| softened |= cable.system.static_contact.soften(&cable.model, q, share));
+        if !softened && outcome.is_some() {
+            break;
+        }
+        outcome = Some(search_by_laws(search));
+    }
+    let mut found = match outcome.unwrap_or_else(|| search_by_laws(search)) {
+        Ok(found) => found,
+        Err(failure) => {
+            // the shape in which it failed first tells why
+            end.into_iter().for_each(|end| search.restore(end));
+            return Err(failure);
         }
     };
     let mut growth = Growth::default();

@@ -218,7 +218,9 @@ impl Minimisation<'_> {
             let gain = trial_energy - energy - self.load * moment_work(self.equations.model, q, &self.trial);
             // near the end energies differ by less than their rounding: then the residual decides
             let rounding = self.scale.energy_rounding;
-            if gain < -rounding || (gain <= rounding && after <= residual) {
+            let Equations { system, model, .. } = &self.equations;
+            let falls = gain < -rounding || (gain <= rounding && after <= residual);
+            if falls && !system.static_contact.passes(model, q, &self.trial) {
                 accepted = Step::Accepted { energy: trial_energy, residual: after };
                 self.best.copy_from_slice(&self.trial);
                 // with a much larger residual the next step would begin by raising the energy

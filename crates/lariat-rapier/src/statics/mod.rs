@@ -43,7 +43,7 @@ use crate::handle::CableHandle;
 use crate::islands::Islands;
 use crate::step::{self, reels};
 use contacts::check_contacts;
-use lariat_ancf::{Cable, EquilibriumOptions, EquilibriumReport};
+use lariat_ancf::{Cable, EquilibriumFailure, EquilibriumOptions, EquilibriumReport};
 use passed::{Moved, check_passed};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Pose;
@@ -82,7 +82,10 @@ pub(crate) fn equilibrium(
     let before = relaxation::has_more_contact(contents).then(|| (contents.clone(), relaxation::copy(world)));
     let reason = match search(contents, finder, world, (forces, drawn), options) {
         Err(
-            reason @ (Error::ContactInStatics { .. }
+            reason @ (Error::Cable(lariat_ancf::Error::NoEquilibrium {
+                failure: EquilibriumFailure::Snags { .. }, ..
+            })
+            | Error::ContactInStatics { .. }
             | Error::CablesPassInStatics { .. }
             | Error::CablePassesBodyInStatics { .. }),
         ) => reason,

@@ -9,6 +9,13 @@
 //! way do not cancel; a cable and a body, seen from the body, if the found line is in it, or a
 //! particle enters it by one face and leaves it by an opposite one.
 //!
+//! What stays where it is does touch the cable in statics, at samples: what is thinner than their
+//! spacing may be passed. There the cable may have slid along itself, so that particles say
+//! nothing: each place of the drawn line goes to one of the found line, in their order, such that
+//! the sum of the squares of the ways is least (dynamic time warping, Sakoe & Chiba, IEEE Trans.
+//! ASSP 26 (1978) 43), and is refused if such a way enters a collider by one face and leaves it by
+//! an opposite one.
+//!
 //! # Validity
 //!
 //! Of a pair whose way does not cross nothing is said: it may still rest a radius deep in each
@@ -18,16 +25,16 @@
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::contents::rules::ContactRules;
-use crate::convert::{rotation, vector};
+use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::handle::CableHandle;
-use crate::read::inside::{deepest_beside, held_beside, passes};
-use crate::scales::read::POINTS;
+use crate::read::inside::{deepest_beside, depth, held_beside, passes};
+use crate::scales::read::{MATCHED, POINTS};
 use ::nalgebra::Vector3;
 use lariat_ancf::Cable;
 use lariat_ancf::contact::{Way, crossed_on};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::geometry::Collider;
+use rapier::geometry::{Aabb, BoundingVolume, Collider};
 use rapier::math::Pose;
 use rapier::pipeline::PhysicsWorld;
 
@@ -94,8 +101,76 @@ pub(crate) fn check_passed(
         for (handle, to) in poses {
             check_body(contents, finder, world, own, (*handle, to))?;
         }
+        check_still(contents, finder, world, own, poses)?;
     }
     Ok(())
+}
+
+/// Refuses a cable that went through a collider that stays where it is.
+fn check_still(
+    contents: &Contents,
+    finder: &Finder,
+    world: &PhysicsWorld,
+    own: &Moved<'_>,
+    moved: &[(RigidBodyHandle, Pose)],
+) -> Result<(), Error> {
+    let (Some(slot), cable) = (contents.cables.get(own.index), CableHandle(own.index as u32)) else { return Ok(()) };
+    let moves = |collider: &Collider| moved.iter().any(|(body, _)| collider.parent() == Some(*body));
+    let mut swept = Aabb::new_invalid();
+    own.way.from.iter().chain(&own.way.to).for_each(|x| swept.take_point(to_vector(x)));
+    let mut ways = None;
+    for (found, collider) in world.colliders.iter() {
+        let touched = finder.touched(world, cable, &slot.rules, found).is_some() && !moves(collider);
+        if !touched || !collider.compute_aabb().intersects(&swept) {
+            continue;
+        }
+        let except = held_beside(contents, cable, own.drawn, collider);
+        let held = |s: f64| except.iter().any(|[from, to]| (from..=to).contains(&&s));
+        let through = |&[i, j]: &[usize; 2]| {
+            let (from, to) = (&own.way.from[i], &own.way.to[j]);
+            let outside = || !depth(collider, from).1 && !depth(collider, to).1;
+            !held(own.arc_length(j)) && passes(collider, from, to) && outside()
+        };
+        let ways = ways.get_or_insert_with(|| matched(&own.way));
+        let Some([_, j]) = ways.iter().find(|way| through(way)) else { continue };
+        let (name, arc_length) = (own.found.name().to_string(), own.arc_length(*j));
+        return Err(match collider.parent() {
+            Some(body) => Error::CablePassesBodyInStatics { cable: name, body, arc_length, by_motion: false },
+            None => Error::CableTouchesInStatics { cable: name, collider: found, arc_length, depth: 0.0 },
+        });
+    }
+    Ok(())
+}
+
+/// Returns pairs of places of the drawn and the found line, in the order of both, for which the sum
+/// of the squares of their distances is least.
+fn matched(way: &Way) -> Vec<[usize; 2]> {
+    let last = way.from.len() - 1;
+    let stride = last.div_ceil(MATCHED).max(1);
+    let places: Vec<usize> = (0..last).step_by(stride).chain([last]).collect();
+    let n = places.len();
+    let mut cost = vec![f64::INFINITY; n * n];
+    for i in 0..n {
+        for j in 0..n {
+            let before = match (i, j) {
+                (0, 0) => 0.0,
+                (0, _) => cost[j - 1],
+                (_, 0) => cost[(i - 1) * n],
+                _ => cost[(i - 1) * n + j].min(cost[i * n + j - 1]).min(cost[(i - 1) * n + j - 1]),
+            };
+            cost[i * n + j] = before + (way.from[places[i]] - way.to[places[j]]).norm_squared();
+        }
+    }
+    let (mut i, mut j) = (n - 1, n - 1);
+    let mut pairs = vec![[places[i], places[j]]];
+    while (i, j) != (0, 0) {
+        let steps = [(1, 1), (1, 0), (0, 1)].map(|(a, b)| Some((i.checked_sub(a)?, j.checked_sub(b)?)));
+        let cheapest = steps.into_iter().flatten().min_by(|a, b| cost[a.0 * n + a.1].total_cmp(&cost[b.0 * n + b.1]));
+        let Some(next) = cheapest else { break };
+        (i, j) = next;
+        pairs.push([places[i], places[j]]);
+    }
+    pairs
 }
 
 fn crossed(one: &Moved<'_>, other: &Moved<'_>, chord: usize) -> Error {
@@ -111,7 +186,7 @@ fn crossed(one: &Moved<'_>, other: &Moved<'_>, chord: usize) -> Error {
 fn may_touch(contents: &Contents, one: &Moved<'_>, other: &Moved<'_>) -> bool {
     let of = |own: &Moved<'_>| {
         let contact = own.found.effects().contact.filter(|contact| contact.cables)?;
-        Some((&contents.cables.get(own.index)?.rules, contact.friction))
+        Some((&contents.cables.get(own.index)?.rules, [contact.friction, contact.restitution]))
     };
     let (Some(mine), Some(theirs)) = (of(one), of(other)) else { return false };
     ContactRules::between(mine, theirs).is_some()

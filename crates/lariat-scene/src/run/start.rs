@@ -55,16 +55,17 @@ impl World {
             let runs_on = settles && (over_sheave || own.drum.is_some() || slips);
             if (settles || scene.cables[i].equilibrium) && !runs_on {
                 let report = match physics {
-                    // statics of bodies begin without what the cable can touch
-                    Some(physics) if !settles => physics.equilibrium_among(scene, cable)?,
-                    _ => cable.equilibrium()?,
+                    Some(physics) if !settles => Some(physics.equilibrium_among(scene, cable)?),
+                    // where statics of all begin, on the side on which it was drawn, or as drawn
+                    Some(physics) if cable.effects().contact.is_some() => physics.equilibrium_among(scene, cable).ok(),
+                    _ => Some(cable.equilibrium()?),
                 };
-                *static_iterations += report.iterations as u64;
+                *static_iterations += report.map_or(0, |report| report.iterations as u64);
                 // with bodies this is where statics begin
-                if !(report.stable || settles && physics.is_some()) {
+                if report.is_some_and(|report| !report.stable) && !(settles && physics.is_some()) {
                     warnings.push(unstable(cable));
                 }
-                reports.push(report);
+                reports.extend(report);
             }
             if physics.is_none() && settles {
                 if !fully {

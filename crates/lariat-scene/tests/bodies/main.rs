@@ -3,6 +3,7 @@
 mod contacts;
 mod holds;
 mod joined_statics;
+mod laid_over;
 mod motion;
 mod passed;
 mod results;

@@ -8,7 +8,7 @@ use crate::cable::Snapshot;
 use crate::contact::Overlap;
 use crate::error::{EquilibriumFailure, Error, require};
 use crate::model::{LoadScale, Model};
-use crate::scales::statics::PULLS;
+use crate::scales::statics::{PULLS, SNAG};
 use crate::state::ContactMemory;
 use crate::statics::move_with_supports;
 use crate::statics::{
@@ -62,6 +62,7 @@ impl Cable {
         }
         let iterations = alone.searched + alone.budget.done;
         self.model.loads = loads;
+        let snags = if outcome.is_ok() { self.snags() } else { None };
         let contacts = self.end_static_contact();
         match outcome {
             Ok(report) => {
@@ -71,7 +72,7 @@ impl Cable {
                 self.snapshot.state.memory.contacts = contacts;
                 let pulls = PULLS
                     * report.residual.max(options.tolerance * LoadScale::new(&self.model, self.positions()).force);
-                if let Some(failure) = self.crosses().or_else(|| self.slips(pulls)) {
+                if let Some(failure) = self.crosses().or(snags).or_else(|| self.slips(pulls)) {
                     self.snapshot = before;
                     return Err(no_equilibrium(self, failure, 0.0, iterations));
                 }
@@ -122,6 +123,14 @@ impl Cable {
         Some(EquilibriumFailure::Touches { obstacle, arc_length, depth })
     }
 
+    /// Returns the failure of an equilibrium in which a sharp edge holds the cable along itself.
+    pub(super) fn snags(&self) -> Option<EquilibriumFailure> {
+        let (obstacle, arc_length, force) = self.system.static_contact.snag(&self.model, self.positions())?;
+        let loads = LoadScale::new(&self.model, self.positions()).force;
+        let is_held = force > SNAG * self.peak_tension().1.max(loads);
+        is_held.then_some(EquilibriumFailure::Snags { obstacle, arc_length, force })
+    }
+
     fn attempts(&mut self, budget: &mut Budget, exact: bool) -> Result<EquilibriumReport, Failure> {
         self.place_supports();
         if self.system.forces.drive() {
@@ -143,6 +152,11 @@ impl Cable {
                 2 if loads && !moments => self.ramp_loads(budget),
                 3 => {
                     lay_out(&self.model, &mut self.snapshot.state.q);
+                    let Cable { system, model, snapshot, .. } = &*self;
+                    if system.static_contact.passes(model, &start.state.q, &snapshot.state.q) {
+                        self.snapshot = start.clone();
+                        continue;
+                    }
                     self.minimise_energy(1.0, budget)
                 }
                 4 => {

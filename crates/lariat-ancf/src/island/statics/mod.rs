@@ -225,8 +225,9 @@ fn settle(
         for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
             cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
             cable.set_at_rest();
+            let snags = cable.snags();
             cable.snapshot.state.memory.contacts = cable.end_static_contact();
-            if let Some(failure) = cable.crosses() {
+            if let Some(failure) = cable.crosses().or(snags) {
                 return Err(failed(cable, failure));
             }
         }

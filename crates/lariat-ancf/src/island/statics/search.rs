@@ -158,7 +158,7 @@ impl<'a> Search<'a> {
             // NaN fails too
             let falls = after.is_finite() && (!self.has_potential || after <= energy + self.energy_rounding);
             let moved = match outcome {
-                Ok(moved) if falls => moved,
+                Ok(moved) if falls && !self.passes(cables) => moved,
                 outcome => {
                     cause = outcome.err();
                     c2 *= REDUCTION;
@@ -205,6 +205,14 @@ impl<'a> Search<'a> {
             c2 = self.first;
         }
         Err(cause.map_or(EquilibriumFailure::NotConverged, EquilibriumFailure::Step))
+    }
+
+    /// Returns whether a cable goes through what it touches on the way to the trial.
+    fn passes(&self, cables: &[&mut Cable]) -> bool {
+        cables.iter().zip(&self.layout.parts).any(|(cable, part)| {
+            let (from, to) = (&self.q[part.range()], &self.trial[part.range()]);
+            cable.system.static_contact.passes(&cable.model, from, to)
+        })
     }
 
     /// Returns the resultant of the loads in N if nothing holds the island.
