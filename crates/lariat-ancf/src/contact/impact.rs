@@ -43,10 +43,9 @@
 //!
 //! # Validity
 //!
-//! Restitution of contacts with obstacles and bodies up to `(1 - a)/(1 + a) = 15/17`: with more a
-//! mass that leaves has more of H than it came with, for H holds the store of its jump of velocity,
-//! `a/2 m (1 + e)^2 v0^2`, too. Of cables with each other ([`pairs`](super::pairs)) it is 0. Steps
-//! of which the velocity across contacts has less energy than the tolerance of the law take none,
+//! Restitution up to `(1 - a)/(1 + a) = 15/17`: with more a mass that leaves has more of H than it
+//! came with, for H holds the store of its jump of velocity, `a/2 m (1 + e)^2 v0^2`, too. Steps of
+//! which the velocity across contacts has less energy than the tolerance of the law take none,
 //! and do no work for it.
 //!
 //! # References

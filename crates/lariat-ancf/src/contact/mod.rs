@@ -59,7 +59,7 @@
 //! of the radius. First touch is of order 1 in the step; the bound of friction is that of the step
 //! itself, of a first touch too (lag.rs). What a step that does not resolve a contact leaves of the
 //! velocity away from it, beyond what Newton's law of restitution leaves, is taken when the step
-//! ends (impact.rs); restitution is 0 by default, and between cables. The element has no torsion:
+//! ends (impact.rs); restitution is 0 by default. The element has no torsion:
 //! forces act on the centre line.
 //!
 //! # References

@@ -165,19 +165,18 @@ impl ContactPoint {
             return;
         }
         let normal = self.patch.over_step(obstacle, &self.start, &Vector3::zeros(), None).normal;
-        let opens = normal.dot(&moves()) / obstacle.h;
-        if self.restitution == 0.0 {
-            self.find_loss(opens, b);
-            return;
-        }
-        let came = if self.touched { self.came.abs() } else { (-opens).max(0.0) };
-        self.rebound = Rebound::new(self.restitution * came, opens, b, self.is_resolved(obstacle.h, came));
+        self.find_law(normal.dot(&moves()) / obstacle.h, (obstacle.h, b));
     }
 
-    /// Finds what it gives back in the step without restitution, if it opens with a speed (m/s)
-    /// when the step begins, in a formula with the coefficient b. What is born deep counts as what
-    /// fell so deep.
-    pub fn find_loss(&mut self, opens: f64, b: f64) {
+    /// Finds what it gives back in a step of length `h` (s), if it opens with a speed (m/s) when
+    /// that begins, in a formula with the coefficient b. Without restitution what is born deep
+    /// counts as what fell so deep.
+    pub fn find_law(&mut self, opens: f64, (h, b): (f64, f64)) {
+        if self.restitution > 0.0 {
+            let came = if self.touched { self.came.abs() } else { (-opens).max(0.0) };
+            self.rebound = Rebound::new(self.restitution * came, opens, b, self.is_resolved(h, came));
+            return;
+        }
         if self.speed > 0.0 {
             self.speed = self.speed.max(thrown(&self.law, self.mass, self.offset));
         }

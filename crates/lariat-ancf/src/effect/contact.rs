@@ -20,9 +20,9 @@ pub struct Contact {
     /// Coefficient of friction of the cable, >= 0, which a host combines with that of what it
     /// touches. Default: 0.5.
     pub friction: f64,
-    /// Coefficient of restitution of the cable, 0 to 1, which a host combines with that of a
-    /// collider; [obstacles](crate::contact::Obstacle) have their own, and between cables there is
-    /// none. Default: 0.
+    /// Coefficient of restitution of the cable, 0 to 1, which a host combines with that of what it
+    /// touches; [obstacles](crate::contact::Obstacle) have their own, and on itself it has this
+    /// one, at most 15/17. Default: 0.
     pub restitution: f64,
     /// Whether it touches other cables that have this too. Default: false.
     pub cables: bool,

@@ -20,10 +20,67 @@ fn bar(line: [Vector3<f64>; 2], modulus: f64, mass: f64, velocity: Vector3<f64>)
     rope(10.0, &line, 2).section(section).velocity(velocity)
 }
 
-fn touching(bar: lariat_ancf::CableBuilder) -> Cable {
+fn touching(bar: lariat_ancf::CableBuilder, restitution: f64) -> Cable {
     let mut bar = bar.build().unwrap();
-    bar.set_contact(Contact { cables: true, ..Contact::with_friction(0.0).with_radius(RADIUS) }).unwrap();
+    let contact = Contact::with_friction(0.0).with_radius(RADIUS).with_restitution(restitution);
+    bar.set_contact(Contact { cables: true, ..contact }).unwrap();
     bar
+}
+
+/// Two free bars that cross, of masses (kg/m), of which one flies at a speed (m/s) against the middle of the other; `part` is the share of a
+/// step after which they meet.
+#[derive(Clone, Copy, Debug)]
+struct Meeting {
+    modulus: f64,
+    rate: f64,
+    masses: [f64; 2],
+    speed: f64,
+    part: f64,
+    restitution: f64,
+}
+
+impl Meeting {
+    /// Returns all of some stiffnesses and steps, masses and speeds; bars so soft that they go through each other are none.
+    fn all(moduli: &[f64], rates: &[f64], restitution: f64) -> Vec<Meeting> {
+        let mut all = Vec::new();
+        for (&modulus, &rate) in moduli.iter().flat_map(|modulus| rates.iter().map(move |rate| (modulus, rate))) {
+            for (i, masses) in [[1.0, 1.0], [0.3, 1.0], [1.0, 10.0], [20.0, 20.0]].into_iter().enumerate() {
+                for (j, speed) in [0.3, 1.0, 3.0].into_iter().enumerate() {
+                    let part = 0.07 + 0.09 * (i + 4 * j) as f64;
+                    all.push(Meeting { modulus, rate, masses, speed, part, restitution });
+                }
+            }
+        }
+        all.retain(|meeting| meeting.speed * meeting.period() <= RADIUS);
+        all
+    }
+
+    /// Returns the period of the contact over two pi in s.
+    fn period(&self) -> f64 {
+        let reduced = LENGTH * self.masses[0] * self.masses[1] / (self.masses[0] + self.masses[1]);
+        (reduced / (self.modulus * PI / 80.0 * LENGTH / 8.0)).sqrt()
+    }
+
+    /// Returns the share of their speed with which they part, how far momentum is off, and the energy made as a share.
+    fn run(&self) -> [f64; 3] {
+        let Meeting { modulus, rate, masses, speed, part, restitution } = *self;
+        let (gap, half) = (speed * (1.0 + part) / rate, 0.5 * LENGTH);
+        let at = up() * (2.0 * RADIUS + gap);
+        let line = [at - half * Vector3::z(), at + half * Vector3::z()];
+        let below = bar([-half * Vector3::x(), half * Vector3::x()], modulus, masses[0], Vector3::zeros());
+        let above = bar(line, modulus, masses[1], up() * -speed);
+        let bars = [below, above].map(|bar| touching(bar.gravity(Vector3::zeros()), restitution));
+        let mut world = World::new(bars.into(), vec![]);
+        world.integrator = steps(rate);
+        let before = world.momentum().0;
+        // what comes up does so in some 10/omega
+        let time = gap / speed + 4.0 / rate + 15.0 * self.period();
+        world.run((60.0 * time).ceil() as usize, |_| {});
+        let held = 0.5 * LENGTH * (masses[0] + masses[1]) * speed * speed;
+        let velocity = |k: usize| world.cables[k].momentum().linear.y / (masses[k] * LENGTH);
+        let off = (world.momentum().0 - before).norm() / before.norm();
+        [(velocity(1) - velocity(0)) / speed, off, world.cables[0].energy_law().made / held]
+    }
 }
 
 /// Free bars that cross and hit each other in their middles do not bounce: they part with at most
@@ -34,48 +91,33 @@ fn touching(bar: lariat_ancf::CableBuilder) -> Cable {
 #[test]
 fn bars_do_not_bounce_off_each_other() {
     let (mut worst, mut drift, mut failed) = (0.0f64, 0.0f64, Vec::new());
-    for modulus in [1e5, 1e6, 1e7, 1e8, 1e10] {
-        for rate in [60.0, 240.0, 960.0, 3840.0] {
-            let mut row = 0.0f64;
-            for (i, masses) in [[1.0, 1.0], [0.3, 1.0], [1.0, 10.0], [20.0, 20.0]].into_iter().enumerate() {
-                for (j, speed) in [0.3, 1.0, 3.0].into_iter().enumerate() {
-                    let part = 0.07 + 0.09 * (i + 4 * j) as f64;
-                    let gap = speed * (1.0 + part) / rate;
-                    let half = 0.5 * LENGTH;
-                    let at = up() * (2.0 * RADIUS + gap);
-                    let line = [at - half * Vector3::z(), at + half * Vector3::z()];
-                    let below = bar([-half * Vector3::x(), half * Vector3::x()], modulus, masses[0], Vector3::zeros());
-                    let above = bar(line, modulus, masses[1], up() * -speed);
-                    let bars = [below, above].map(|bar| touching(bar.gravity(Vector3::zeros())));
-                    let mut world = World::new(bars.into(), vec![]);
-                    world.integrator = steps(rate);
-                    let before = world.momentum().0;
-                    let reduced = LENGTH * masses[0] * masses[1] / (masses[0] + masses[1]);
-                    let stiffness = modulus * PI / 80.0 * LENGTH / 8.0;
-                    // softer ones go through each other
-                    if speed * (reduced / stiffness).sqrt() > RADIUS {
-                        continue;
-                    }
-                    // what comes up does so in some 10/omega
-                    let time = gap / speed + 4.0 / rate + 15.0 * (reduced / stiffness).sqrt();
-                    world.run((60.0 * time).ceil() as usize, |_| {});
-                    let held = 0.5 * LENGTH * (masses[0] + masses[1]) * speed * speed;
-                    let made = world.cables[0].energy_law().made / held;
-                    let velocity = |k: usize| world.cables[k].momentum().linear.y / (masses[k] * LENGTH);
-                    let share = (velocity(1) - velocity(0)) / speed;
-                    let off = (world.momentum().0 - before).norm() / before.norm();
-                    (row, drift) = (row.max(share), drift.max(off));
-                    let name = format!("E {modulus:.0e}, {rate} Hz, {masses:?} kg/m, {speed} m/s");
-                    if share.abs() > 0.13 + 0.01 / speed || off > 1e-10 || made > 1e-9 {
-                        failed.push(format!("{name}: {share:.3} {off:.0e} {made:.0e}"));
-                    }
-                }
-            }
-            println!("E {modulus:.0e}, {rate} Hz: part with at most {row:.3}");
-            worst = worst.max(row);
+    for meeting in Meeting::all(&[1e5, 1e6, 1e7, 1e8, 1e10], &[60.0, 240.0, 960.0, 3840.0], 0.0) {
+        let [share, off, made] = meeting.run();
+        (worst, drift) = (worst.max(share), drift.max(off));
+        if share.abs() > 0.13 + 0.01 / meeting.speed || off > 1e-10 || made > 1e-9 {
+            failed.push(format!("{meeting:?}: {share:.3} {off:.0e} {made:.0e}"));
         }
     }
     println!("at most {worst:.3} of their speed, momentum off by {drift:.0e}");
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// With restitution they part with that share of their speed, to about what bounces off obstacles do (docs/decisions/restitution.md).
+///
+/// *Source.* Newton's law of restitution.
+#[test]
+fn bars_bounce_off_each_other_by_their_restitution() {
+    let (mut failed, mut least, mut most) = (Vec::new(), f64::INFINITY, 0.0f64);
+    for restitution in [0.3, 0.6, 0.8] {
+        for meeting in Meeting::all(&[1e6, 1e8, 1e10], &[60.0, 240.0, 960.0, 3840.0], restitution) {
+            let [share, off, made] = meeting.run();
+            (least, most) = (least.min(share / restitution), most.max(share / restitution));
+            if !(0.87..1.1).contains(&(share / restitution)) || off > 1e-10 || made > 1e-9 {
+                failed.push(format!("{meeting:?}: {share:.3} {off:.0e} {made:.0e}"));
+            }
+        }
+    }
+    println!("{least:.3} to {most:.3} of e");
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 

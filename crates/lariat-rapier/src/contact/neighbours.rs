@@ -18,9 +18,9 @@ use crate::contents::{Contents, Slot};
 use crate::islands::Island;
 use crate::scales::contact::{CHUNK, MARGIN, REACH, SWEEP};
 use ::nalgebra::Vector3;
-use lariat_ancf::Cable;
 use lariat_ancf::contact::CablePair;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::{Cable, Contact};
 
 /// A piece of a cable with the box that it is in.
 #[derive(Clone, Copy, Debug)]
@@ -133,17 +133,18 @@ impl Neighbours {
         for &cables in &self.found {
             let place = self.pairs.binary_search_by_key(&cables, |pair| pair.cables);
             let [Some(one), Some(other)] = cables.map(|c| contents.cables.get(c)) else { continue };
-            if let (Err(place), Some(friction)) = (place, friction(one, other)) {
-                self.pairs.insert(place, CablePair { cables, friction });
+            if let (Err(place), Some([friction, restitution])) = (place, coefficients(one, other)) {
+                self.pairs.insert(place, CablePair { cables, friction, restitution });
             }
         }
     }
 }
 
-/// Returns the coefficient of friction between two cables that may touch.
-fn friction(one: &Slot, other: &Slot) -> Option<f64> {
-    let [mine, theirs] = [one, other].map(|slot| slot.cable.effects().contact.map(|contact| contact.friction));
-    ContactRules::between((&one.rules, mine?), (&other.rules, theirs?))
+/// Returns the coefficients of friction and of restitution between two cables that may touch.
+fn coefficients(one: &Slot, other: &Slot) -> Option<[f64; 2]> {
+    let [mine, theirs] = [one, other].map(|slot| slot.cable.effects().contact);
+    let own = |contact: Contact| [contact.friction, contact.restitution];
+    ContactRules::between((&one.rules, own(mine?)), (&other.rules, own(theirs?)))
 }
 
 /// Returns whether a cable touches cables.

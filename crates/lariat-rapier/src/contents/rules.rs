@@ -2,6 +2,7 @@
 //! decides it for two colliders.
 
 use crate::handle::CableHandle;
+use lariat_ancf::contact::LARGEST_RESTITUTION;
 use rapier::dynamics::CoefficientCombineRule;
 use rapier::geometry::{Collider, ColliderHandle, InteractionGroups};
 use rapier::math::Real;
@@ -20,7 +21,8 @@ pub struct ContactRules {
     /// How its friction is combined with that of a collider or another cable. Default: the mean of
     /// both.
     pub friction_combine_rule: CoefficientCombineRule,
-    /// How its restitution is combined with that of a collider. Default: the mean of both.
+    /// How its restitution is combined with that of a collider or another cable. Default: the mean
+    /// of both.
     pub restitution_combine_rule: CoefficientCombineRule,
 }
 
@@ -34,12 +36,14 @@ impl ContactRules {
             && self.solver_groups.test(collider.solver_groups())
     }
 
-    /// Returns the coefficient of friction between two cables, each with its own, if both groups
-    /// let them touch.
-    pub(crate) fn between((one, mine): (&Self, f64), (other, theirs): (&Self, f64)) -> Option<f64> {
+    /// Returns the coefficients of friction and of restitution between two cables, each with its
+    /// own, if both groups let them touch.
+    pub(crate) fn between((one, mine): (&Self, [f64; 2]), (other, theirs): (&Self, [f64; 2])) -> Option<[f64; 2]> {
         let allowed = one.collision_groups.test(other.collision_groups) && one.solver_groups.test(other.solver_groups);
-        let rules = (one.friction_combine_rule, other.friction_combine_rule);
-        allowed.then(|| combined(rules, mine, theirs as Real))
+        let friction = (one.friction_combine_rule, other.friction_combine_rule);
+        let restitution = (one.restitution_combine_rule, other.restitution_combine_rule);
+        let both = |rules, k: usize| combined(rules, mine[k], theirs[k] as Real);
+        allowed.then(|| [both(friction, 0), both(restitution, 1).min(LARGEST_RESTITUTION)])
     }
 
     /// Returns the coefficient of friction between a cable with its own and a collider.

@@ -151,7 +151,7 @@ impl Boxes {
             let (i, j) = (k - leaves, l - leaves);
             let [own, other] = [&self.boxes[i], &self.boxes[j]];
             let straight = own.strand == other.strand && is_straight(&self.boxes[i.min(j)..=i.max(j)]);
-            if !straight && strands.friction(own.strand, other.strand).is_some() {
+            if !straight && strands.coefficients(own.strand, other.strand).is_some() {
                 self.near.push(if is_first(strands, own, other) { [i, j] } else { [j, i] });
             }
         }

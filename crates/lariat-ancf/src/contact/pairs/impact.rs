@@ -8,17 +8,18 @@
 //! of a pair turns with it: G is so much more than the masses that an impulse along another would
 //! throw the cables aside.
 //!
+use super::super::impact::When;
 use super::step::PairStep;
 use nalgebra::Vector3;
 
 impl PairStep {
     /// Finds the velocities beside contacts that push, at the end of the step, and returns the
     /// energy in J of those that they oppose. `mass` is that of an element of a strand per length,
-    /// `velocity` that of a nodal vector's combination in one.
+    /// `velocity` that of a nodal vector's combination in one, when the step begins or ends.
     pub fn find_impacts(
         &mut self,
         mass: impl Fn(usize, usize) -> f64,
-        velocity: impl Fn(usize, usize, &[f64; 4]) -> Vector3<f64>,
+        velocity: impl Fn(When, usize, usize, &[f64; 4]) -> Vector3<f64>,
     ) -> f64 {
         let mut energy = 0.0;
         for pair in &mut self.points {
@@ -26,12 +27,18 @@ impl PairStep {
             let reduced = one * other / (one + other);
             pair.point.clear_impact();
             if pair.point.may_leave() {
-                let beside = pair.rate(&velocity);
-                let normal = pair.point.linear.tangents.across;
-                energy += pair.point.find_impact(normal, [beside, Vector3::zeros()], 0.0, (self.h, self.leg, reduced));
+                let rate = |when: When| pair.rate(|c, e, shape| velocity(when, c, e, shape));
+                let (normal, beside) = (pair.point.linear.tangents.across, rate(When::End));
+                let came = if pair.point.restitution > 0.0 { (-normal.dot(&rate(When::Begin))).max(0.0) } else { 0.0 };
+                energy += pair.point.find_impact(normal, [beside, Vector3::zeros()], came, (self.h, self.leg, reduced));
             }
         }
         energy
+    }
+
+    /// Returns whether any gives velocity by its restitution.
+    pub fn gives_velocity(&self) -> bool {
+        self.points.iter().any(|pair| pair.point.impact.acts() && pair.point.impact.gives)
     }
 
     /// Passes what the linear solve sees of them to `add`, by strand and element.

@@ -79,6 +79,10 @@ pub struct CablePair {
     pub cables: [usize; 2],
     /// Coefficient of friction between them.
     pub friction: f64,
+    /// Newton's coefficient of restitution between them, from 0 to [`LARGEST_RESTITUTION`].
+    ///
+    /// [`LARGEST_RESTITUTION`]: super::LARGEST_RESTITUTION
+    pub restitution: f64,
 }
 
 pub(crate) use chords::Strand;

@@ -125,13 +125,13 @@ impl PairStep {
     }
 
     /// Begins the step of the contacts from one on: what does not come fast, but is pressed or
-    /// lies, has the law of its depth.
+    /// lies, has the law of its depth, but for what bounces.
     fn start(&mut self, strands: &Strands<'_, '_>, first: usize) {
         for pair in &mut self.points[first..] {
-            if pair.point.speed > 0.0 {
+            if pair.point.speed > 0.0 || pair.point.bounces() {
                 let pieces = pair.ends.map(|end| Piece::new((strands.get)(end.strand), end.element));
                 let opens = pair.opens(pieces.each_ref());
-                pair.point.find_loss(opens, self.leg.b);
+                pair.point.find_law(opens, (self.h, self.leg.b));
             }
             self.before += pair.point.energy_before();
         }
@@ -195,7 +195,9 @@ impl PairStep {
         let own = candidate.strands.map(|c| (strands.get)(c));
         let sections = [0, 1].map(|k| &own[k].model.elements[candidate.elements[k]]);
         let (Some(one), Some(other)) = (own[0].model.effects.contact, own[1].model.effects.contact) else { return };
-        let Some(friction) = strands.friction(candidate.strands[0], candidate.strands[1]) else { return };
+        let Some([friction, restitution]) = strands.coefficients(candidate.strands[0], candidate.strands[1]) else {
+            return;
+        };
         let pieces = [0, 1].map(|k| Piece::new(own[k], candidate.elements[k]));
         let passage = Passage::new(pieces.each_ref(), candidate.chords[0], candidate.xi);
         let from = [0, 1].map(|k| candidate.arcs[k] + (passage.start[k] - candidate.xi[k]) * pieces[k].length);
@@ -219,6 +221,7 @@ impl PairStep {
             ),
             mass: reduced(sections.map(|section| section.section.mass_per_length)),
             friction,
+            restitution,
             ..ContactPoint::default()
         };
         let mut pair = PairPoint::new(candidate, from, point, self.h);
@@ -369,6 +372,6 @@ fn deviates(strand: &Strand<'_>, searched: &[f64]) -> bool {
 /// Returns what is remembered of a contact, in world axes: those of the next frame.
 fn in_world_axes(pair: &PairPoint) -> ContactMemory {
     let contact = pair.point.memory(&pair.frame);
-    let speed = pair.point.speed_after(pair.frame.h);
+    let speed = if pair.point.restitution == 0.0 { pair.point.speed_after(pair.frame.h) } else { 0.0 };
     ContactMemory { speed, normal: contact.direction, spring: pair.frame.end.rotation * contact.spring, ..contact }
 }

@@ -2,6 +2,7 @@
 
 use super::CablePair;
 use super::chords::Strand;
+use crate::obstacle::LARGEST_RESTITUTION;
 
 /// The cables of a step.
 pub(crate) struct Strands<'s, 'a> {
@@ -15,20 +16,23 @@ pub(crate) struct Strands<'s, 'a> {
 }
 
 impl Strands<'_, '_> {
-    /// Returns the coefficient of friction between two strands that may touch, or of one with
-    /// itself.
-    pub fn friction(&self, a: usize, b: usize) -> Option<f64> {
+    /// Returns the coefficients of friction and of restitution between two strands that may touch,
+    /// or of one with itself.
+    pub fn coefficients(&self, a: usize, b: usize) -> Option<[f64; 2]> {
         let contact = |c: usize| (self.get)(c).model.effects.contact;
         let (one, other) = (contact(a)?, contact(b)?);
         if a == b {
-            return one.itself.then_some(one.friction);
+            return one.itself.then_some([one.friction, one.restitution.min(LARGEST_RESTITUTION)]);
         }
         if !(one.cables && other.cables) {
             return None;
         }
-        let Some(pairs) = self.pairs else { return Some(0.5 * (one.friction + other.friction)) };
+        let Some(pairs) = self.pairs else {
+            let mean = 0.5 * (one.restitution + other.restitution);
+            return Some([0.5 * (one.friction + other.friction), mean.min(LARGEST_RESTITUTION)]);
+        };
         let found = pairs.binary_search_by_key(&[a.min(b), a.max(b)], |pair| pair.cables).ok()?;
-        Some(pairs[found].friction)
+        Some([pairs[found].friction, pairs[found].restitution])
     }
 
     /// Returns whether a strand may touch any.

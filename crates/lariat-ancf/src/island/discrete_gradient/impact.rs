@@ -4,6 +4,7 @@
 use super::super::hold::vector;
 use super::IslandStep;
 use super::coupled::coupled_product;
+use crate::contact::When;
 use crate::element::shape::combine;
 use crate::scales::contact::MAX_SOLVES;
 use crate::system::CableStep;
@@ -23,15 +24,20 @@ impl IslandStep<'_, '_> {
             energy += equations.find_impacts(state, b, |when, i, arm| bodies[i].velocity_at(when, arm));
         }
         let cables = &*self.cables;
+        let velocities = |when: When, c: usize| match when {
+            When::Begin => &cables[c].snapshot.state.v,
+            When::End => &cables[c].step_buffers.external,
+        };
         energy += self.buffers.pairs.find_impacts(
             |c, e| cables[c].model.elements[e].section.mass_per_length,
-            |c, e, shape| combine(&cables[c].step_buffers.external, e, shape),
+            |when, c, e, shape| combine(velocities(when, c), e, shape),
         );
         if energy <= least {
             return;
         }
         self.solve_impacts();
-        let gives = self.cables.iter().any(|cable| cable.step_buffers.contact.gives_velocity());
+        let gives = self.cables.iter().any(|cable| cable.step_buffers.contact.gives_velocity())
+            || self.buffers.pairs.gives_velocity();
         for solve in 0..MAX_SOLVES {
             if !self.settle_impacts(solve == 0) {
                 break;
