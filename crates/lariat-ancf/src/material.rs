@@ -36,7 +36,7 @@
 
 use crate::error::{Error, require};
 use crate::scales::cable::LARGEST_ROPE;
-use crate::section::{Make, Section};
+use crate::section::{Make, Section, WIRE_ROPE_BREAKS};
 use serde::{Deserialize, Serialize};
 
 /// What a rope or chain is made of.
@@ -81,7 +81,7 @@ impl RopeMaterial {
             RopeMaterial::Polyester => of(678.75, [0.0, 308.2e6, 0.0], 14.0, 1380.0),
             RopeMaterial::Hmpe => of(495.72, [0.0, 579.5e6, 650.65e6], 56.54, 975.0),
             // mass and EA are those of the section
-            RopeMaterial::WireRope => of(0.0, [0.0, 0.356 * 1.77e9, 0.0], 0.0, 0.0),
+            RopeMaterial::WireRope => of(0.0, [0.0, WIRE_ROPE_BREAKS, 0.0], 0.0, 0.0),
             RopeMaterial::Chain => of(20.01e3, [910.7, 1.206e9, -2.192e9], 0.0, 7850.0),
         }
     }
@@ -104,7 +104,9 @@ impl RopeMaterial {
         let area = mass / solid;
         let mut section = Section::from_stiffness(axial, 0.0, mass)?;
         let outer = if self == RopeMaterial::Chain { (4.0 * area / std::f64::consts::PI).sqrt() } else { diameter };
-        (section.diameter, section.outer_area, section.make) = (Some(outer), Some(area), Make::Rope);
+        let breaking_load = self.breaking_load(diameter)?;
+        (section.diameter, section.outer_area) = (Some(outer), Some(area));
+        section.make = Make::Rope(Some(breaking_load));
         Ok(section)
     }
 

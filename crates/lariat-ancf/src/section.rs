@@ -11,6 +11,7 @@
 //! use [`Section::from_stiffness`] with measured values.
 
 use crate::error::{Error, require};
+use crate::scales::watch::{STIFF, STRAIN};
 use serde::{Deserialize, Serialize};
 
 /// Axial stiffness, bending stiffness and mass per length of an element; all that mechanics needs
@@ -34,6 +35,10 @@ pub struct Section {
     pub make: Make,
 }
 
+/// Coefficient: breaking load of a wire rope over the square of its diameter in N/m^2 (EN 12385-4,
+/// class 6 x 36 with a steel core, factor K = 0.356, rope grade 1770).
+pub(crate) const WIRE_ROPE_BREAKS: f64 = 0.356 * 1.77e9;
+
 /// What a section is that of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Make {
@@ -42,10 +47,11 @@ pub enum Make {
     Unknown,
     /// A solid of this Young's modulus in Pa: for [warnings](crate::warning).
     Solid(f64),
-    /// A rope or chain: its EA is force over elongation, and it folds rather than be pushed. A
-    /// cable of such sections has the axial law [`Rope`](crate::AxialLaw::Rope), unless it has
-    /// another one.
-    Rope,
+    /// A rope or chain, with its breaking load in N if that is known, for
+    /// [warnings](crate::warning): its EA is force over elongation, and it folds rather than be
+    /// pushed. A cable of such sections has the axial law [`Rope`](crate::AxialLaw::Rope), unless
+    /// it has another one.
+    Rope(Option<f64>),
 }
 
 /// One element: unstretched length in m and section.
@@ -148,7 +154,7 @@ impl Section {
             Self::from_stiffness(1.0e11 * metal, 2.06e11 * metal * wire * wire / 16.0, 4.09e3 * diameter * diameter)?;
         section.diameter = Some(diameter);
         section.outer_area = Some(Shape::Round(diameter).area());
-        section.make = Make::Rope;
+        section.make = Make::Rope(Some(WIRE_ROPE_BREAKS * diameter * diameter));
         Ok(section)
     }
 
@@ -156,7 +162,22 @@ impl Section {
     pub fn youngs_modulus(&self) -> Option<f64> {
         match self.make {
             Make::Solid(modulus) => Some(modulus),
-            Make::Unknown | Make::Rope => None,
+            Make::Unknown | Make::Rope(_) => None,
+        }
+    }
+
+    /// Returns whether it is that of a rope or chain.
+    pub fn is_rope(&self) -> bool {
+        matches!(self.make, Make::Rope(_))
+    }
+
+    /// Returns the tension in N that nothing of its make bears: the breaking load of a rope, or a
+    /// strain at which no stiff solid is elastic; `None` where its make says nothing.
+    pub(crate) fn bears(&self) -> Option<f64> {
+        match self.make {
+            Make::Rope(breaking_load) => breaking_load,
+            Make::Solid(modulus) if modulus >= STIFF => Some(STRAIN * self.axial_stiffness),
+            Make::Solid(_) | Make::Unknown => None,
         }
     }
 

@@ -7,7 +7,7 @@ use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::{Passage, Through, fold};
 use lariat_ancf::{
     At, AxialLaw, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, Level, Method, PointLoad,
-    RopeMaterial, Section, StepControl, Vector3, Warning,
+    RopeMaterial, Section, StepControl, Strength, Vector3, Warning,
 };
 use std::f64::consts::PI;
 
@@ -202,6 +202,32 @@ fn measures_that_were_not_meant_are_told() {
     assert!(told(102.0, 40, 0.1).iter().any(slack) && !told(5.9, 40, 0.1).iter().any(slack));
 }
 
+/// A tension that breaks a rope of a known make is told, unless the rope has a strength; so is one of 0.05 EA in a stiff solid, whatever its
+/// law. Rubber bears it.
+///
+/// *Source.* The breaking loads of the catalogues ([`RopeMaterial`]).
+#[test]
+fn tensions_that_break_a_rope_are_told() {
+    let told = |section: Section, law: Option<AxialLaw>, strength: Option<f64>, pull: f64| {
+        let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * 2.0]).section(section).gravity([0.0; 3]);
+        let line = line.effects(Effects { axial_law: law, ..Effects::default() }).fix(At::Start);
+        let mut line = line.load(PointLoad::force(2.0, [pull, 0.0, 0.0])).build().unwrap();
+        strength.into_iter().for_each(|limit| line.set_strength(Strength::tension(limit)).unwrap());
+        line.equilibrium().unwrap();
+        line.warnings().iter().any(|w| matches!(w, Warning::Overloaded { .. }))
+    };
+    for material in RopeMaterial::ALL {
+        let (section, load) = (material.section(0.02).unwrap(), material.breaking_load(0.02).unwrap());
+        let of = |strength: Option<f64>, share: f64| told(section, None, strength, share * load);
+        assert_eq!([of(None, 0.95), of(None, 1.05), of(Some(2.0 * load), 1.05)], [false, true, false], "{material:?}");
+    }
+    let hooke = |modulus: f64, share: f64| {
+        let section = Section::round(0.01, modulus, 2000.0).unwrap();
+        told(section, Some(AxialLaw::Hooke), None, share * section.axial_stiffness)
+    };
+    assert_eq!([hooke(2e11, 0.04), hooke(2e11, 0.06), hooke(1e7, 0.3)], [false, true, false]);
+}
+
 /// The modulus given as EA, a diameter of drag in mm, a wind in km/h and strains of a curve in percent are told by the cable itself; so
 /// is a tension beyond the last row of a curve. None is told where they are as they should be.
 #[test]
@@ -373,7 +399,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },
         Warning::CoarseContact { cable: cable(), arc_length_m: 0.5, turn_rad: 1.0, enough },
         Warning::HighRestitution { cable: cable(), restitution: 1.0 },
-        Warning::DeadCables { cable: cable(), restitution: 0.5 },
+        Warning::Overloaded { cable: cable(), time_s, tension_n: 2.0, bears_n: 1.0 },
         Warning::RunsOver { cable: cable(), arc_length_m: 0.5, run_m: 0.1 },
         Warning::FrictionLags { cable: cable(), steps },
         Warning::IdleTorsion { cable: cable() },

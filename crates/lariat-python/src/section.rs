@@ -10,8 +10,9 @@ use pyo3::types::PyTuple;
 /// Measured stiffness: EA in N (> 0), EI in N m^2 (>= 0), mass per unstretched length in kg/m (>
 /// 0).
 ///
-/// ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy; a ``rope`` cannot
-/// push. Raises InvalidValueError.
+/// ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy; a ``rope``, or what
+/// has a ``breaking_load`` (N), cannot push, and is told to be overloaded above that. Raises
+/// InvalidValueError.
 #[pyclass(frozen, module = "lariat_cables")]
 #[derive(Clone)]
 pub struct Section(pub ancf::Section);
@@ -29,7 +30,8 @@ fn named(material: &str) -> PyResult<ancf::RopeMaterial> {
 #[pymethods]
 impl Section {
     #[new]
-    #[pyo3(signature = (axial_stiffness, bending_stiffness, mass_per_length, *, diameter=None, outer_area=None, rope=false))]
+    #[pyo3(signature = (axial_stiffness, bending_stiffness, mass_per_length, *, diameter=None, outer_area=None, rope=false,
+        breaking_load=None))]
     fn new(
         axial_stiffness: f64,
         bending_stiffness: f64,
@@ -37,15 +39,19 @@ impl Section {
         diameter: Option<f64>,
         outer_area: Option<f64>,
         rope: bool,
+        breaking_load: Option<f64>,
     ) -> PyResult<Self> {
-        for (what, value) in [("diameter (m)", diameter), ("outer area (m^2)", outer_area)] {
+        let numbers =
+            [("diameter (m)", diameter), ("outer area (m^2)", outer_area), ("breaking load (N)", breaking_load)];
+        for (what, value) in numbers {
             if let Some(value) = value.filter(|x| !(x.is_finite() && *x > 0.0)) {
                 let (cable, what, expected) = (None, what.to_string(), "> 0");
                 return Err(raise(ancf::Error::InvalidValue { cable, what, value, expected }));
             }
         }
         let section = made(ancf::Section::from_stiffness(axial_stiffness, bending_stiffness, mass_per_length))?.0;
-        let make = if rope { ancf::Make::Rope } else { ancf::Make::Unknown };
+        let is_rope = rope || breaking_load.is_some();
+        let make = if is_rope { ancf::Make::Rope(breaking_load) } else { ancf::Make::Unknown };
         Ok(Section(ancf::Section { diameter, outer_area, make, ..section }))
     }
 
@@ -135,8 +141,9 @@ impl Section {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let s = &slf.get().0;
-        let rope = s.make == ancf::Make::Rope;
-        let numbers = (s.axial_stiffness, s.bending_stiffness, s.mass_per_length, s.diameter, s.outer_area, rope);
+        let (axial, bending, mass) = (s.axial_stiffness, s.bending_stiffness, s.mass_per_length);
+        let breaking_load = if let ancf::Make::Rope(load) = s.make { load } else { None };
+        let numbers = (axial, bending, mass, s.diameter, s.outer_area, s.is_rope(), breaking_load);
         let restore = slf.py().import("lariat_cables.results")?.getattr("section")?;
         Ok((restore, numbers.into_pyobject(slf.py())?))
     }

@@ -21,7 +21,7 @@ use crate::point::Point;
 use crate::reel::Reels;
 use crate::rule::{BendingRule, Rule};
 use crate::scales::cable::{MAX_ELEMENTS, SLACK};
-use crate::section::{Element, Make, Section};
+use crate::section::{Element, Section};
 use crate::support::{Motion, SlopeSupport, Support};
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -367,7 +367,7 @@ impl CableBuilder {
             let limp = rule.bending == BendingRule::None;
             self.effects.damping = Some(if limp { Damping { bending: 0.0, ..damping } } else { damping });
         }
-        if sections.iter().all(|(_, section)| section.make == Make::Rope) && self.effects.axial_law.is_none() {
+        if sections.iter().all(|(_, section)| section.is_rope()) && self.effects.axial_law.is_none() {
             self.effects.axial_law = AxialLaw::of_rope(&self.effects, rule);
         }
         let mut laid = layout::along_polyline(&self.points, &s, self.gravity);

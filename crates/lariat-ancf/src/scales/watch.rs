@@ -37,6 +37,15 @@ pub(crate) const TURN: f64 = 0.2;
 /// Largest tension over EA. Derived: elongations by Green's law are 6.6 % below Hooke's there.
 pub(crate) const STRAIN: f64 = 0.05;
 
+/// Strain below which no rope of a known make breaks, so that its make is not asked for. Derived:
+/// that of a wire rope, which breaks first, at 0.356 * 1.77e9/4.6e10 = 0.0137.
+pub(crate) const BREAKING: f64 = 0.01;
+
+/// Young's modulus in Pa of a stiff solid. Derived: solids that are elastic to a strain of 0.05 are
+/// rubbers, plastics and their fibres, of less than 1e10 Pa; metals, glass and the fibres of the
+/// strongest ropes break or flow before.
+pub(crate) const STIFF: f64 = 1e10;
+
 /// Share by which elongations by Green's law may be below those by Hooke's. Setting: what users are
 /// told; 1.5 times the strain, so from 1.35 % on.
 pub(crate) const ELONGATION: f64 = 0.02;

@@ -20,7 +20,7 @@
 
 use super::Warning;
 use crate::cable::Cable;
-use crate::obstacle::{Obstacle, RigidMotion};
+use crate::obstacle::{LARGEST_RESTITUTION, Obstacle, RigidMotion};
 use crate::scales::watch::{ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, INSIDE, RUN, SLID};
 use crate::state::PairMemory;
 use crate::watch::{Contacts, Excess, Sticking};
@@ -196,11 +196,11 @@ impl Contacts {
         (run_m > 0.0).then(|| Warning::RunsOver { cable: cable.name().to_string(), arc_length_m, run_m })
     }
 
-    /// Whether it has restitution and touched a cable.
-    pub fn dead(cable: &Cable) -> Option<Warning> {
+    /// Whether it touched a cable with more restitution than it can have.
+    pub fn bounces(cable: &Cable) -> Option<Warning> {
         let restitution = cable.effects().contact?.restitution;
-        let told = restitution > 0.0 && cable.diagnostics().touching_steps > 0;
-        told.then(|| Warning::DeadCables { cable: cable.name().to_string(), restitution })
+        let told = restitution > LARGEST_RESTITUTION && cable.diagnostics().touching_steps > 0;
+        told.then(|| Warning::HighRestitution { cable: cable.name().to_string(), restitution })
     }
 
     /// Whether friction lags in more than a hundredth of all steps.

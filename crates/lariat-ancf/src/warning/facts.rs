@@ -10,7 +10,6 @@ impl Warning {
             Warning::UntouchedObstacles { .. }
             | Warning::SlowReel { .. }
             | Warning::HighRestitution { .. }
-            | Warning::DeadCables { .. }
             | Warning::IdleTorsion { .. }
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
@@ -32,6 +31,7 @@ impl Warning {
             | Warning::UnseenLoad { .. }
             | Warning::BreaksAgain { .. }
             | Warning::BeyondCurve { .. }
+            | Warning::Overloaded { .. }
             | Warning::RoundedEnds { .. }
             | Warning::PassedThrough { .. }
             | Warning::FrictionLags { .. }
@@ -77,6 +77,7 @@ impl Warning {
             | Warning::BreaksAgain { cable, .. }
             | Warning::StartsInside { cable, .. }
             | Warning::BeyondCurve { cable, .. }
+            | Warning::Overloaded { cable, .. }
             | Warning::EnergyMade { cable, .. }
             | Warning::EnergyLost { cable, .. }
             | Warning::FastReel { cable, .. }
@@ -90,7 +91,6 @@ impl Warning {
             | Warning::HighRestitution { cable, .. }
             | Warning::FrictionLags { cable, .. }
             | Warning::Facets { cable, .. }
-            | Warning::DeadCables { cable, .. }
             | Warning::RunsOver { cable, .. }
             | Warning::CutShort { cable, .. }
             | Warning::UnsolvedSteps { cable, .. }
@@ -124,7 +124,10 @@ impl Judged for Warning {
             | Warning::ThickDrag { .. }
             | Warning::SoftCurve { .. }
             | Warning::SoftMaterial { .. } => Sign::Sizes,
-            Warning::LargeStrain { .. } | Warning::GreenStrain { .. } | Warning::BeyondCurve { .. } => Sign::Strain,
+            Warning::LargeStrain { .. }
+            | Warning::GreenStrain { .. }
+            | Warning::BeyondCurve { .. }
+            | Warning::Overloaded { .. } => Sign::Strain,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::StartsInside { .. } => Sign::Inside,
@@ -143,7 +146,6 @@ impl Judged for Warning {
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
-            | Warning::DeadCables { .. }
             | Warning::RunsOver { .. }
             | Warning::IdleTorsion { .. }
             | Warning::KinksThroughItself { .. }
@@ -171,6 +173,7 @@ impl Judged for Warning {
             | Warning::LargeStrain { time_s, .. }
             | Warning::GreenStrain { time_s, .. }
             | Warning::BeyondCurve { time_s, .. }
+            | Warning::Overloaded { time_s, .. }
             | Warning::EnergyLost { time_s, .. }
             | Warning::FastReel { time_s, .. }
             | Warning::UnseenLoad { time_s, .. }
@@ -202,6 +205,7 @@ impl Judged for Warning {
             Warning::UnseenLoad { reached, .. } => *reached,
             Warning::StartsInside { depth_m, .. } => *depth_m,
             Warning::BeyondCurve { tension_n, force_n, .. } => tension_n / force_n,
+            Warning::Overloaded { tension_n, bears_n, .. } => tension_n / bears_n,
             Warning::BreaksAgain { breaks, .. } => f64::from(*breaks),
             Warning::FastFlow { speed_m_s, .. } => *speed_m_s,
             Warning::SoftCurve { strain, .. } => *strain,
@@ -224,7 +228,7 @@ impl Judged for Warning {
             }
             Warning::SoftMaterial { youngs_modulus_pa, .. } => -youngs_modulus_pa,
             Warning::Thick { diameter_m, .. } | Warning::ThickDrag { diameter_m, .. } => *diameter_m,
-            Warning::HighRestitution { restitution, .. } | Warning::DeadCables { restitution, .. } => *restitution,
+            Warning::HighRestitution { restitution, .. } => *restitution,
             Warning::RunsOver { run_m, .. } => *run_m,
             Warning::UntouchedObstacles { count, .. } => *count as f64,
             Warning::IdleTorsion { .. } => 0.0,

@@ -303,6 +303,22 @@ pub enum Warning {
         /// Last force of the curve in N.
         force_n: f64,
     },
+    /// The tension is more than anything of its make bears.
+    #[error(
+        "cable {cable:?}: at {time_s:.4} s its tension is {tension_n:.3e} N, {times:.1} times the {bears_n:.3e} N that break a rope or a solid of its make: check the length \
+         (was it drawn longer than it is?), masses and speeds, or give it a `Strength`, by which it breaks",
+        times = .tension_n / .bears_n
+    )]
+    Overloaded {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the largest tension in s.
+        time_s: f64,
+        /// Largest tension in N.
+        tension_n: f64,
+        /// Breaking load in N of a rope of its make, or 0.05 EA of a stiff solid.
+        bears_n: f64,
+    },
     /// It starts in an obstacle.
     #[error(
         "cable {cable:?}: at {arc_length_m:.4} m it starts {depth_m:.2e} m deep in obstacle {obstacle}: `Contact` does not push out what starts inside; move one of them, and see \
@@ -433,16 +449,6 @@ pub enum Warning {
         /// Name of the cable.
         cable: String,
         /// Coefficient of restitution with what it touches.
-        restitution: f64,
-    },
-    /// It has restitution, which cables do not have on each other.
-    #[error(
-        "cable {cable:?}: its coefficient of restitution is {restitution}, and cables have none on each other: it leaves a cable that it hits with at most a ninth of its speed"
-    )]
-    DeadCables {
-        /// Name of the cable.
-        cable: String,
-        /// Its coefficient of restitution.
         restitution: f64,
     },
     /// It runs over a cable without slipping, since that turns beneath it.

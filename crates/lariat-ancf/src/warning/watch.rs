@@ -17,9 +17,9 @@ use crate::cable::Cable;
 use crate::effect::AxialLaw;
 use crate::integrate::{Fidelity, OneStep};
 use crate::scales::watch::{
-    BREAKS, DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN,
+    BREAKING, BREAKS, DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN,
 };
-use crate::strength::Unseen;
+use crate::strength::{Strength, Unseen};
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
 /// A law that judges the readings; the error (m) that is asked for takes the place of its limit.
@@ -57,7 +57,7 @@ const LAWS: [(Law, bool); 30] = [
     (Watch::green_strain, true),
     (|watch, cable, _| watch.contacts.facets(cable), true),
     (|watch, cable, _| watch.contacts.runs_over(cable), true),
-    (|_, cable, _| Contacts::dead(cable), true),
+    (|_, cable, _| Contacts::bounces(cable), true),
 ];
 
 /// Layout: the bit of warnings about sizes.
@@ -144,13 +144,21 @@ impl Watch {
 
     fn strain(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let [share, tension_n, axial_stiffness_n, time_s] = self.tension;
-        // a law of one's own is meant as it is, as far as it was measured
+        // a law of one's own is meant as it is, as far as it was measured, or the make bears it
         if let Some(law) = &cable.effects().axial_law {
-            let AxialLaw::Curve(rows) = law else { return None };
-            let &[strain, force_n] = rows.last()?;
+            if let AxialLaw::Curve(rows) = law {
+                let &[strain, force_n] = rows.last()?;
+                let cable = cable.name().to_string();
+                let beyond = tension_n > force_n;
+                return beyond.then_some(Warning::BeyondCurve { cable, time_s, tension_n, strain, force_n });
+            }
+            if share <= BREAKING || cable.strength() != Strength::default() {
+                return None;
+            }
+            let bears = cable.elements().iter().filter_map(|element| element.section.bears());
+            let bears_n = bears.fold(f64::INFINITY, f64::min);
             let cable = cable.name().to_string();
-            let beyond = tension_n > force_n;
-            return beyond.then_some(Warning::BeyondCurve { cable, time_s, tension_n, strain, force_n });
+            return (tension_n > bears_n).then_some(Warning::Overloaded { cable, time_s, tension_n, bears_n });
         }
         let cable = || cable.name().to_string();
         (share > STRAIN).then(|| Warning::LargeStrain { cable: cable(), time_s, tension_n, axial_stiffness_n })

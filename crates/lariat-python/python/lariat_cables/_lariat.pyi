@@ -55,10 +55,12 @@ class Section:
         diameter: float | None = None,
         outer_area: float | None = None,
         rope: bool = False,
+        breaking_load: float | None = None,
     ) -> Self:
         """Measured stiffness: EA in N (> 0), EI in N m^2 (>= 0), mass per unstretched length in kg/m (> 0).
 
-        ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy; a ``rope`` cannot push. Raises InvalidValueError.
+        ``diameter`` (m) is for drag and drawing, ``outer_area`` (m^2) for buoyancy; a ``rope``, or what has a ``breaking_load`` (N),
+        cannot push, and is told to be overloaded above that. Raises InvalidValueError.
         """
 
     @staticmethod

@@ -369,12 +369,19 @@ class RigidBodyHandle(NamedTuple):
 
 
 def section(
-    axial: float, bending: float, mass: float, diameter: float | None, outer_area: float | None, rope: bool = False
+    axial: float,
+    bending: float,
+    mass: float,
+    diameter: float | None,
+    outer_area: float | None,
+    rope: bool = False,
+    breaking_load: float | None = None,
 ) -> Section:
     """Restores a pickled section."""
     from lariat_cables import Section
 
-    return Section(axial, bending, mass, diameter=diameter, outer_area=outer_area, rope=rope)
+    shape = {"diameter": diameter, "outer_area": outer_area}
+    return Section(axial, bending, mass, rope=rope, breaking_load=breaking_load, **shape)
 
 
 def _document() -> None:
