@@ -32,7 +32,9 @@ pub struct Reel {
     pub stock: Option<f64>,
     /// Largest force of the motor in N: a clutch between the reel and a shaft that turns at the
     /// commanded rate. The reel slips where the cable pulls more, and is pulled back by this force
-    /// until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. A force
+    /// until it follows the shaft again; with a rate of zero a brake; 0 is a free spool. What it is
+    /// commanded changes by `acceleration`, so that a brake that is to act by its force alone needs
+    /// a large one. A force
     /// that is lowered falls linearly over the next host step, from what the motor pulls. Needs the
     /// integrator `discrete-gradient`. Default: as strong as it must be.
     pub max_force: Option<f64>,

@@ -315,3 +315,49 @@ fn friction_of_a_wheel_with_inertia_takes_energy() {
         assert!(!format!("{:?}", recording.summary.warnings).contains("CutShort"), "{case}");
     }
 }
+
+/// A block of a mass (kg) on a rope that runs from a reel down around its wheel and up to a dead end.
+fn block_on_reel(mass: f64, radius: f64, height: f64, reel: &str) -> String {
+    format!(
+        "duration = 6.0\ninitial = \"equilibrium\"\n\
+        [[body]]\nname = \"block\"\nshape = {{ cuboid = [0.2, 0.2, 0.2] }}\nmass = {mass:?}\nposition = [0.0, {:?}, 0.0]\n\
+        [[cable]]\nname = \"rope\"\npoints = [[{:?}, 0.0, 0.0], [{:?}, {:?}, 0.0], [{radius:?}, {:?}, 0.0], [{radius:?}, 0.0, 0.0]]\n{ROPE}\
+        [cable.reel]\nend = \"start\"\n{reel}\n\
+        [[sheave]]\nname = \"wheel\"\ncable = \"rope\"\nat = \"50 %\"\nbody = \"block\"\nanchor = [0.0, 0.0, 0.0]\nradius = {radius:?}\n\
+        [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"world\"\n\
+        [[probe]]\nname = \"block\"\nbody = \"block\"\n[[probe]]\nname = \"reel\"\nreel = \"rope\"\n",
+        -height, -radius, -radius, -height, -height
+    )
+}
+
+/// A reel counts all of its cable, on both sides of a sheave along it: the length that it comes to, its stock, and what is read. The block on
+/// two falls rises by half of what is taken in, and sinks by half of what is paid out, to the end of the stock.
+///
+/// *Source.* The contract of `to_length`, `stock` and `length_out`; the geometry of two falls.
+#[test]
+fn a_reel_counts_the_cable_beyond_a_sheave() {
+    for (mass, radius, height) in [(20.0, 0.1, 5.0), (3.0, 0.2, 8.0), (50.0, 0.05, 3.0)] {
+        for change in [-1.5, 0.8] {
+            let length = 2.0 * height + std::f64::consts::PI * radius;
+            let to = length + change;
+            for reel in [
+                format!("rate = [[0.2, 0.6]]\nto_length = {to}\nacceleration = 1.0"),
+                format!("rate = [[0.2, 0.6]]\nstock = {to}\nacceleration = 1.0"),
+            ] {
+                let text = block_on_reel(mass, radius, height, &reel);
+                if reel.contains("stock") && change < 0.0 {
+                    let problem = refused(&text);
+                    assert!(problem.contains("stock") && problem.contains("length that is out"), "{problem}");
+                    continue;
+                }
+                let recording = record(&text);
+                let [reel, block] = ["reel", "block"].map(|name| rows(&recording, name));
+                let (first, last) = (reel[0][1], reel[reel.len() - 1][1]);
+                let rise = block[block.len() - 1][2] - block[0][2];
+                println!("{mass} kg, {radius} m, {change} m: {first:.4} to {last:.4} of {to:.4} m, rises {rise:.4} m");
+                assert!((first - length).abs() < 1e-3 && (last - to).abs() < 2e-3, "{first} m, {last} m of {to}");
+                assert!((rise + 0.5 * (last - first)).abs() < 5e-3, "{rise} m");
+            }
+        }
+    }
+}

@@ -54,6 +54,11 @@ pub trait Coupling {
     /// reel.
     fn plan_reels(&mut self, dt: f64);
 
+    /// Tells that the cable runs on for a length in m beyond the sheave at one of its ends: a reel
+    /// at the other end counts that as out, for its stock, for the length that it is to come to,
+    /// and where it is read. 0 if it does not. Does nothing at an end without a reel.
+    fn set_beyond(&mut self, start: bool, length: f64);
+
     /// Returns the number of steps of an [`Island`](crate::island::Island), not an integer, into
     /// which `dt` (s) is to be divided so that no reel moves more than half of the element at its
     /// eye in one; 0 without a reel.
@@ -290,6 +295,10 @@ impl Coupling for Cable {
 
     fn plan_reels(&mut self, dt: f64) {
         Cable::plan_reels(self, dt)
+    }
+
+    fn set_beyond(&mut self, start: bool, length: f64) {
+        Cable::set_beyond(self, start, length)
     }
 
     fn steps_of_reels(&self, dt: f64) -> f64 {

@@ -56,6 +56,7 @@ use crate::body::prescribed_motion::PrescribedMotions;
 use crate::body::proximity;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
+use crate::edit::reel::passing;
 use crate::edit::{attach, breaking};
 use crate::error::{Error, Failure};
 use crate::events::Event;
@@ -314,6 +315,9 @@ fn prepare_islands(
     host: &HostStep,
 ) -> Result<StepParameters, Error> {
     let Finder { touching, neighbours, .. } = &stepper.finder;
+    if contents.changed {
+        passing::count(contents);
+    }
     stepper.islands.update(contents, world, touching, &neighbours.pairs)?;
     let budget = stepper.budget;
     stepper.predictions.resize_with(stepper.islands.list.len(), || Prediction { budget, ..Prediction::default() });

@@ -210,11 +210,12 @@ impl Physics {
             added.map_err(|error| self.explain(scene, 0.0, error))?;
         }
         for sheave in &scene.sheaves {
-            let SheaveScene { friction, turns, inertia, brake, radius, on_wheel, .. } = *sheave;
+            let SheaveScene { friction, turns, inertia, brake, radius, on_wheel, along, .. } = *sheave;
             let [from, to] = sheave.cables.map(|cable| self.handles[cable]);
             // what is on the wheel turns with it
             let inertia = inertia + scene.cables[sheave.cables[0]].sections.last().mass_per_length * on_wheel;
-            let options = SheaveOptions { inertia, friction, turns, brake, radius };
+            let along = along.then_some(on_wheel);
+            let options = SheaveOptions { inertia, friction, turns, brake, radius, along };
             let added = self.cables.add_sheave((from, At::End), (to, At::Start), options);
             self.sheaves.push(added.map_err(|error| self.explain(scene, 0.0, error))?);
         }

@@ -454,7 +454,7 @@ table! {
         stiffness: Option<f64> = ("EA/(40 radius^2)"), Kind::Number(POSITIVE), "N/m^2";
         /// Coefficient of friction of the cable; that of a contact is the mean of both.
         friction: f64 = 0.5, Kind::Number(NOT_NEGATIVE);
-        /// Coefficient of restitution of the cable; that of a contact is the mean of both, at most 15/17, and 0 between cables.
+        /// Coefficient of restitution of the cable; that of a contact is the mean of both, at most 15/17.
         restitution: f64 = 0.0, Kind::Number(UNIT);
         /// Whether the cable touches itself, and other cables that say so: both of the keys below.
         self_contact: bool = false, Kind::Flag;

@@ -57,7 +57,7 @@ table! {
         /// The body on which the cable is wound, instead of `rate`, `to_length`, `acceleration`, `max_force` and `feed`. Needs the integrator
         /// `discrete-gradient`.
         drum: Option<DrumTable> = (), Kind::Table(&DrumTable::TABLE);
-        /// Length of cable that is out when the reel stops: it comes there with the rates of `rate`, whatever their sign, and within
+        /// Length of cable that is out, beyond sheaves along it too, when the reel stops: it comes there with the rates of `rate`, whatever their sign, and within
         /// `acceleration`. Not with a drum.
         to_length: Option<f64> = ("none, the rates are followed"), Kind::Number(POSITIVE), "m";
         /// Largest acceleration of the rate. What a table asks for in less time than that takes is told by the warning `slow_reel`.
@@ -65,8 +65,8 @@ table! {
         /// Largest length of cable that can be out: the reel stops there, softly if its motor holds it, at once if it slips. Needed on a
         /// dynamic body.
         stock: Option<f64> = ("no limit"), Kind::Number(POSITIVE), "m";
-        /// Largest force of the motor: the reel slips where the cable pulls more. A clutch; with a rate of 0 a brake; 0 is a free
-        /// spool. Needs the integrator `discrete-gradient`.
+        /// Largest force of the motor: the reel slips where the cable pulls more. A clutch; with a rate of 0 a brake, whose command
+        /// comes to 0 by `acceleration`: give that a large number for a stop by the force alone; 0 is a free spool. Needs the integrator `discrete-gradient`.
         max_force: Option<f64> = ("as strong as it must be"), Kind::Number(NOT_NEGATIVE), "N";
         /// Inertia of the wheel over the square of its radius, where the reel slips; the stock on a drum is added, if `stock` is given.
         inertia: f64 = 0.0, Kind::Number(NOT_NEGATIVE), "kg";

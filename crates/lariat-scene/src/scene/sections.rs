@@ -8,7 +8,7 @@ use lariat_ancf::{RopeMaterial, Section, Shape};
 use serde::Deserialize;
 
 table! {
-    /// A solid section of one material, or a rope or chain by its nominal diameter, with mass, EA and no EI as catalogues have them
+    /// A solid section of one material, or a rope or chain by its nominal diameter, with mass and EA as catalogues have them, without EI but for wire rope
     /// (`RopeMaterial` of lariat-ancf names the sources). The `axial_law` of a rope or chain by name is `"rope"`, unless it has another one,
     /// or a rest stretch or `torque_per_tension`, with which no law goes: catalogues have force over elongation, and it folds rather than be pushed.
     keys SECTION("[cable.section]") {

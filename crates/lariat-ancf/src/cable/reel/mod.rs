@@ -96,7 +96,7 @@ impl Cable {
         let length = self.length();
         if let Some(stock) = reel.stock {
             // to rounding: a reel ends at its stock
-            let enough = stock >= length * (1.0 - 1e-9);
+            let enough = stock >= self.out(side) * (1.0 - 1e-9);
             require("stock of a reel (m)", stock, enough, "at least the length that is out")
                 .map_err(|e| e.of_cable(self.name()))?;
         }
@@ -236,8 +236,8 @@ impl Cable {
             feed.length_before = if forgotten { feed.extent.length } else { winding.length_before };
             let stock = self.model.reels.get(feed.side).and_then(|reel| reel.stock).filter(|_| winding.rides);
             // what came from the other end is none of this reel
-            let passed = self.snapshot.windings[1 - feed.side as usize].map_or(0.0, |other| other.passed);
-            let both = stock.map(|stock| (stock + passed - self.model.length()).max(0.0) + feed.extent.length);
+            let other = self.snapshot.windings[1 - feed.side as usize].map_or(0.0, |other| other.passed - other.beyond);
+            let both = stock.map(|stock| (stock + other - self.model.length()).max(0.0) + feed.extent.length);
             let over_sheave = self.model.reels.get(feed.side).is_some_and(|reel| reel.feed == Feed::Sheave);
             feed.source = if over_sheave { Source::Cable } else { both.map_or(Source::Outside, Source::Stock) };
         }

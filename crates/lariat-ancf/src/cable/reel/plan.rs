@@ -81,7 +81,7 @@ impl Cable {
 
     /// Returns the rate of a reel for a host step of length `h` (s).
     pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
-        let way = self.way(reel);
+        let way = self.way(side, reel);
         let (rate, asked, a) = (winding.extent[1], reel.asked(self.time(), way), reel.acceleration);
         let plan = Plan { begin: self.time(), end: self.time() + h, rate: 0.0, stopped: false };
         if reel.has_law() || rate == 0.0 && asked == 0.0 {
@@ -90,7 +90,7 @@ impl Cable {
         // the way to brake from r in steps is at most r^2/2a + a h^2/8, and h r passes before
         let r = rate.abs().max(asked.abs());
         let enough = r * (0.5 * r / a + h) + a * h * h;
-        let left = [self.left(side, enough), self.left_of_stock(reel)];
+        let left = [self.left(side, enough), self.left_of_stock(side, reel)];
         let [lowest, highest] = rates(a, rate, left, h);
         let limits = [rate - a * h, rate + a * h];
         let wanted = match way {
@@ -102,14 +102,14 @@ impl Cable {
     }
 
     /// Returns how much in m the length that a reel is to come to is beyond the present one.
-    pub(super) fn way(&self, reel: &Reel) -> Option<f64> {
-        reel.to_length.filter(|_| !reel.needs_island()).map(|length| length - self.length())
+    pub(super) fn way(&self, side: Side, reel: &Reel) -> Option<f64> {
+        reel.to_length.filter(|_| !reel.needs_island()).map(|length| length - self.out(side))
     }
 
     /// Returns the length in m that is left of the stock.
-    fn left_of_stock(&self, reel: &Reel) -> f64 {
+    fn left_of_stock(&self, side: Side, reel: &Reel) -> f64 {
         let stock = reel.stock.filter(|_| reel.feed != Feed::Sheave);
-        stock.map_or(f64::INFINITY, |stock| stock - self.length())
+        stock.map_or(f64::INFINITY, |stock| stock - self.out(side))
     }
 
     /// Returns what drives a reel whose rate is an unknown, for a part of a host step, of length
@@ -128,7 +128,7 @@ impl Cable {
         let held = |force| MotorState { commanded: rate, limit: f64::INFINITY, force, excess: 0.0 };
         let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
         let reach = reach.unwrap_or_else(|| self.reach(side, f64::INFINITY));
-        let way = self.way(reel);
+        let way = self.way(side, reel);
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
             duration: h,
@@ -139,7 +139,7 @@ impl Cable {
             stop: if in_island { STOP } else { RIGID },
             target: way.map(|way| length + way),
             before: before.or((!in_island).then_some(MotorState { commanded: rate, limit, force: 0.0, excess: 0.0 })),
-            bounds: [-reach, length + self.left_of_stock(reel)],
+            bounds: [-reach, length + self.left_of_stock(side, reel)],
         };
         Some((Law::new(motor, self.time()), reach))
     }

@@ -4,12 +4,13 @@ use crate::at::At;
 use crate::cable::Cable;
 use crate::element::side::Side;
 use crate::reel::Reel;
+use crate::scales::SAME;
 
 /// What a reel does now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ReelReading {
-    /// Unstretched length of cable that is out, in m.
+    /// Unstretched length of cable that is out, in m, with what is beyond sheaves along it.
     pub length_out: f64,
     /// Rate in m/s: positive pays out.
     pub rate: f64,
@@ -64,7 +65,7 @@ impl Cable {
         let eye = force + 0.5 * inertia * rate * rate * (square - 1.0);
         let tension = stiffness * self.system.tension_of_pull(side.element(self.elements().len()), eye / stiffness);
         Some(ReelReading {
-            length_out: self.length(),
+            length_out: self.out(side),
             rate,
             force,
             tension,
@@ -87,6 +88,27 @@ impl Cable {
         self.model.reels.get(self.side(at.into())?)
     }
 
+    /// Returns the length in m of cable that is out at the reel of an end: all of it, with what is
+    /// beyond a sheave at the other end, where that runs on as the same cable.
+    pub(super) fn out(&self, side: Side) -> f64 {
+        let other = self.snapshot.windings[1 - side as usize].filter(|other| other.beyond > 0.0);
+        self.length() + other.map_or(0.0, |other| other.beyond - other.passed)
+    }
+
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn set_beyond(&mut self, start: bool, length: f64) {
+        let side = if start { Side::Start } else { Side::End };
+        if let Some(winding) = &mut self.snapshot.windings[side as usize] {
+            let beyond = if length > 0.0 { length + winding.passed } else { 0.0 };
+            // what is the same but for rounding stays, bit for bit
+            if (beyond - winding.beyond).abs() > SAME * beyond.max(winding.beyond) {
+                winding.beyond = beyond;
+                // what of the stock rides at the other end
+                self.sync_reel();
+            }
+        }
+    }
+
     /// Returns whether the cable has a reel.
     pub fn has_reel(&self) -> bool {
         !self.model.reels.is_empty()
@@ -107,7 +129,7 @@ impl Cable {
         self.model.reels.sides().all(|side| {
             let (reel, winding) = (self.model.reels.get(side), &self.snapshot.windings[side as usize]);
             let (Some(reel), Some(winding)) = (reel, winding) else { return true };
-            winding.extent[1] == 0.0 && (reel.asked(self.time(), self.way(reel)) == 0.0 || winding.stopped)
+            winding.extent[1] == 0.0 && (reel.asked(self.time(), self.way(side, reel)) == 0.0 || winding.stopped)
         })
     }
 

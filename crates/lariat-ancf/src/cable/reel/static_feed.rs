@@ -22,7 +22,7 @@ impl Cable {
         self.model.reels.sides().find_map(|side| {
             let reel = self.model.reels.get(side).filter(|reel| reel.feed != Feed::Sheave)?;
             let (pull, largest) = (self.pull_at_rest(side), reel.max_force?);
-            let stopped = pull > 0.0 && reel.stock.is_some_and(|stock| self.length() >= ALL * stock);
+            let stopped = pull > 0.0 && reel.stock.is_some_and(|stock| self.out(side) >= ALL * stock);
             (pull.abs() > largest + tolerance && !stopped).then_some(EquilibriumFailure::Slips { pull, largest })
         })
     }

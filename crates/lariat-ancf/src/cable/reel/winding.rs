@@ -14,6 +14,10 @@ pub(crate) struct Winding {
     pub length_before: f64,
     /// Length in m that came through the eye so far, on balance.
     pub passed: f64,
+    /// Length in m of the same cable beyond a sheave when nothing had come through: a reel at the
+    /// other end counts it as out.
+    #[serde(default)]
+    pub beyond: f64,
     /// Work of the winch and of entering material in J.
     pub work: f64,
     /// Energy in J that merging and splitting elements added.
@@ -50,9 +54,8 @@ impl Winding {
     pub fn check(&self) -> Result<(), Error> {
         let [length, rate, acceleration] = self.extent;
         require("length of the element at the eye (m)", length, length > 0.0, "> 0")?;
-        for x in
-            [rate, acceleration, self.length_before, self.passed, self.work, self.remeshed, self.pull.unwrap_or(0.0)]
-        {
+        let Winding { length_before, passed, beyond, work, remeshed, .. } = *self;
+        for x in [rate, acceleration, length_before, passed, beyond, work, remeshed, self.pull.unwrap_or(0.0)] {
             require("number of a reel", x, true, "a number")?;
         }
         for x in self.plan.iter().flat_map(Plan::numbers) {

@@ -22,6 +22,9 @@ pub struct SheaveOptions {
     /// Radius of the wheel in m: both ends are within it of one centre, as points of one body.
     /// Default 0, where they are one point.
     pub radius: f64,
+    /// Length in m on the wheel, where both cables are parts of one: a reel of it counts both, and
+    /// what is on the wheel, as out. Default: they are two cables.
+    pub along: Option<f64>,
 }
 
 /// A sheave of a [`CableSet`](crate::CableSet), and what it did so far.
@@ -32,9 +35,9 @@ pub struct Sheave {
     pub(crate) ends: [(CableHandle, bool); 2],
     /// The mechanics, with the indices of another set of cables.
     pub(crate) wheel: Wheel,
-    /// Whether both are parts of one cable.
+    /// Length in m on the wheel where both are parts of one cable.
     #[serde(default)]
-    pub(crate) along: bool,
+    pub(crate) along: Option<f64>,
 }
 
 /// Returns the end of a cable.
@@ -51,7 +54,7 @@ impl Sheave {
 
     /// Returns whether both ends are [parts of one cable](crate::CableSet::add_sheave_at).
     pub fn is_along_a_cable(&self) -> bool {
-        self.along
+        self.along.is_some()
     }
 
     /// Returns the length in m that ran over it so far.

@@ -1,5 +1,6 @@
 //! Adding and ending sheaves, and keeping them with the end of a cable that is cut.
 
+use super::passing;
 use crate::contents::Contents;
 use crate::contents::reel::sheave::{Sheave, SheaveOptions};
 use crate::error::Error;
@@ -24,11 +25,13 @@ pub(crate) fn add(
         }
     }
     let mut wheel = Wheel::new((0, At::End), (0, At::Start));
-    let SheaveOptions { inertia, friction, turns, brake, radius } = options;
+    let SheaveOptions { inertia, friction, turns, brake, radius, along } = options;
     (wheel.inertia, wheel.friction, wheel.turns, wheel.brake) = (inertia, friction, turns, brake);
     wheel.radius = radius;
     contents.changed = true;
-    Ok(SheaveHandle(contents.sheaves.push(Sheave { ends, wheel, along: false }) as u32))
+    let sheave = SheaveHandle(contents.sheaves.push(Sheave { ends, wheel, along }) as u32);
+    passing::count(contents);
+    Ok(sheave)
 }
 
 /// Ends a sheave: what is on its sides stays there.

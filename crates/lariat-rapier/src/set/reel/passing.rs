@@ -53,7 +53,7 @@ impl CableSet {
     pub fn parts(&self, cable: CableHandle) -> Result<Vec<CableHandle>, Error> {
         self.contents.cable(cable)?;
         let beside = |cable: CableHandle, side: usize| {
-            let there = |sheave: &&Sheave| sheave.along && sheave.ends[side] == (cable, side == 1);
+            let there = |sheave: &&Sheave| sheave.along.is_some() && sheave.ends[side] == (cable, side == 1);
             self.contents.sheaves.values().find(there).map(|sheave| sheave.ends[1 - side].0)
         };
         let mut first = cable;

@@ -134,6 +134,10 @@ fn split(
     along: &mut Along,
 ) -> Result<(), Error> {
     let own = scene.cables[c].clone();
+    if own.reel.as_ref().and_then(|reel| reel.stock).is_some_and(|stock| stock < own.length * (1.0 - 1e-9)) {
+        let at = KeyPath::root("cable").item(c).key("reel").key("stock");
+        return Err(doc.conflict(&at, format!("the stock is at least the length that is out, {} m", own.length)));
+    }
     let drawn = shape(&own, passages);
     let on_wheels = passages.iter().map(|p| p.radius * p.angle);
     let scale = own.length / (drawn.iter().map(Drawn::length).sum::<f64>() + on_wheels.sum::<f64>());
