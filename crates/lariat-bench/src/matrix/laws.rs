@@ -30,6 +30,8 @@ pub const STEP: f64 = 1.0 / 60.0;
 pub const DURATION: f64 = 0.5;
 /// The quantity of the law of finer runs.
 pub(super) const FINER_RUN: &str = "difference from a finer run";
+/// How many warnings tell that the steps are too long for the motion.
+pub(super) const STEPS_TOLD: &str = "warnings of the steps";
 /// How many times shorter the host step of the finer run is.
 pub(super) const FINER: f64 = 8.0;
 /// Distance in m of two scenes that do not act on each other.
@@ -150,6 +152,7 @@ pub fn together(features: &[Feature], plan: Plan) -> Result<Vec<Check>, Ended> {
     let difference = if same { apart(&end, &fine) } else { (scene.centre() - finer.centre()).norm() } / moved;
     let finer = Check::at_most(FINER_RUN, difference, FINE, "the same scene at dt/8");
     if same && !finer.holds() {
+        checks.push(Check::at_most(STEPS_TOLD, scene.steps as f64, f64::INFINITY, "told, not judged"));
         checks.extend(limits::measure(&draft, plan, &fine, moved)?);
     }
     checks.push(finer);

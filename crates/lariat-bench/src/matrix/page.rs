@@ -17,7 +17,7 @@ account says the same.\n\
 - *Momentum* of systems that nothing from outside acts on stays within 1e-4.\n\
 - *Snapshot.* A state that is saved in the middle and read back runs on bitwise.\n\
 - *Finer.* Positions are those of a host step an eighth as long, within 5 % of how far anything moved, or \
-9 mm, what fidelity game is documented to miss.\n\
+9 mm, what fidelity game is documented to miss; or its warnings, coarse ones with the others, tell that the steps are too long.\n\
 - *Beside.* Both features in one world, far apart, are each as alone, to 1e-6 m, the precision of bodies.\n\
 - *Statics.* A scene that starts in equilibrium, and has nothing that moves, rests within 1e-5 m.\n\
 - *Sleep.* A weight sleeps on its rope, the feature changes after 6 s, and all is where it is in a world that may not sleep, to 1.5e-3 m.\n\
@@ -33,16 +33,17 @@ pub fn page(rows: &[Row], machine: &str, command: &str) -> (String, Vec<Section>
     let count = |of: fn(&Outcome) -> bool| rows.iter().filter(|row| of(&row.outcome)).count();
     let right = count(|outcome| *outcome == Outcome::Right);
     let refused = count(|outcome| matches!(outcome, Outcome::Excluded(_)));
+    let told = count(Outcome::is_told);
     let misses: Vec<Miss> = rows.iter().flat_map(misses::of).collect();
     let introduction = format!(
-        "Made by `{command}`; do not edit. {machine}\n\nOf {} pairs {right} are right, {refused} are excluded for a reason of physics, and {} \
-         are not as they should be; these are listed below.\n\n{INTRODUCTION}",
+        "Made by `{command}`; do not edit. {machine}\n\nOf {} pairs {right} are right, {refused} are excluded for a reason of physics, {told} tell \
+         that they are off or claim no error, and {} are not as they should be; these are listed below.\n\n{INTRODUCTION}",
         rows.len(),
-        rows.len() - right - refused
+        rows.len() - right - refused - told
     );
     let mut matrix = Section::new("Matrix");
     matrix
-        .text("`+` right, `r` excluded for a reason, `x` refused without one, `o` nothing was measured, `!` a law is missed or the run failed.");
+        .text("`+` right, `r` excluded for a reason, `x` refused without one, `t` the run tells that it is off or claims no error, `!` a law is missed or the run failed.");
     matrix.text(drawn(rows));
     matrix.data(all(rows));
     let mut reasons = Section::new("Excluded for a reason");
@@ -74,7 +75,7 @@ fn drawn(rows: &[Row]) -> String {
             Some(Outcome::Right) => '+',
             Some(Outcome::Excluded(_)) => 'r',
             Some(Outcome::Refused(_)) => 'x',
-            Some(Outcome::Unmeasured) => 'o',
+            Some(outcome) if outcome.is_told() => 't',
             Some(_) => '!',
         }
     };

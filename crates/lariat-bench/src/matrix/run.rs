@@ -1,7 +1,7 @@
 //! Runs a pair, and judges it.
 
 use super::feature::{Feature, Pair};
-use super::laws::{self, Ended, Plan};
+use super::laws::{self, Ended, FINER_RUN, Plan, STEPS_TOLD};
 use super::reasons::reason;
 use super::{given, sleep};
 use crate::stability::outcome::Check;
@@ -14,6 +14,8 @@ pub enum Outcome {
     Right,
     /// It ran, and nothing was measured of it: no error was claimed.
     Unmeasured,
+    /// It differs from its finer run, and its warnings tell that the steps are too long.
+    Told(Vec<Check>),
     /// No cable has both, for a reason of physics.
     Excluded(&'static str),
     /// Refused without one, with the text of the error.
@@ -31,7 +33,8 @@ impl Outcome {
     pub fn name(&self) -> &'static str {
         match self {
             Outcome::Right => "right",
-            Outcome::Unmeasured => "nothing measured",
+            Outcome::Unmeasured => "nothing claimed",
+            Outcome::Told(_) => "told",
             Outcome::Excluded(_) => "excluded",
             Outcome::Refused(_) => "refused",
             Outcome::Failed(..) => "failed",
@@ -42,7 +45,12 @@ impl Outcome {
 
     /// Returns whether a pair does what is promised.
     pub fn is_good(&self) -> bool {
-        matches!(self, Outcome::Right | Outcome::Excluded(_))
+        matches!(self, Outcome::Right | Outcome::Excluded(_)) || self.is_told()
+    }
+
+    /// Returns whether the run itself tells what it misses.
+    pub fn is_told(&self) -> bool {
+        matches!(self, Outcome::Unmeasured | Outcome::Told(_))
     }
 
     /// Returns the message or the failed checks; empty if there is nothing to say.
@@ -53,7 +61,9 @@ impl Outcome {
             Outcome::Excluded(reason) => (*reason).to_string(),
             Outcome::Refused(text) | Outcome::Panicked(text) => text.clone(),
             Outcome::Failed(time, text) => format!("after {time:.3} s: {text}"),
-            Outcome::Wrong(checks) => checks.iter().map(Check::to_string).collect::<Vec<_>>().join("; "),
+            Outcome::Told(checks) | Outcome::Wrong(checks) => {
+                checks.iter().map(Check::to_string).collect::<Vec<_>>().join("; ")
+            }
         }
     }
 }
@@ -79,7 +89,13 @@ pub fn run(pair: Pair) -> Row {
         Ok(Ok(checks)) if checks.is_empty() => (Outcome::Unmeasured, checks),
         Ok(Ok(checks)) => {
             let failed: Vec<Check> = checks.iter().filter(|check| !check.holds()).cloned().collect();
-            (if failed.is_empty() { Outcome::Right } else { Outcome::Wrong(failed) }, checks)
+            let told = checks.iter().any(|check| check.quantity == STEPS_TOLD && check.value > 0.0);
+            let outcome = match failed.iter().all(|check| check.quantity == FINER_RUN) {
+                _ if failed.is_empty() => Outcome::Right,
+                true if told => Outcome::Told(failed),
+                _ => Outcome::Wrong(failed),
+            };
+            (outcome, checks)
         }
         Ok(Err(Ended::Refused(text))) => (Outcome::Refused(text), Vec::new()),
         Ok(Err(Ended::Failed(time, text))) => (Outcome::Failed(time, text), Vec::new()),

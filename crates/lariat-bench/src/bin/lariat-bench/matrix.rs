@@ -44,5 +44,9 @@ pub fn measure(arguments: &Arguments) -> Result<String, Error> {
     lariat_bench::page::write(&out.join("matrix.md"), &markdown)?;
     sections.iter().try_for_each(|section| section.save(out))?;
     let good = rows.iter().filter(|row| row.outcome.is_good()).count();
-    Ok(format!("{good} of {} pairs are right, or excluded for a reason\nresults in {}\n", rows.len(), out.display()))
+    Ok(format!(
+        "{good} of {} pairs are right, excluded for a reason, or tell what they miss\nresults in {}\n",
+        rows.len(),
+        out.display()
+    ))
 }

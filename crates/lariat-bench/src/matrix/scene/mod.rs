@@ -6,7 +6,7 @@ mod read;
 use super::feature::Feature;
 use crate::single::convert::to_rapier;
 use build::{Swing, Turning};
-use lariat_ancf::{Motion, Vector3, Warning};
+use lariat_ancf::{Level, Motion, Vector3, Warning};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{CableHandle, CableSet, Event};
 pub use read::Ledger;
@@ -29,6 +29,8 @@ pub struct Scene {
     pub time: f64,
     /// Events so far, as far as they tell of energy that was made.
     pub made: Vec<String>,
+    /// Warnings so far that tell that the motion is off in steps of this length.
+    pub steps: usize,
     /// Cables that are cut, and when in s.
     cuts: Vec<(CableHandle, f64)>,
     /// When the force density of the ropes begins, in s, if they have one.
@@ -44,6 +46,7 @@ impl Scene {
     pub fn new(dt: f64, floats: bool) -> Scene {
         let mut scene = Scene { physics: PhysicsWorld::new(), set: CableSet::new(), ..Scene::default() };
         scene.physics.integration_parameters.dt = dt as Real;
+        scene.set.settings.warn_level = Some(Level::Coarse);
         if floats {
             scene.physics.gravity = Vector::ZERO;
         }
@@ -73,10 +76,16 @@ impl Scene {
             self.load_work += self.potential_of_loads(middle)? - before;
         }
         for event in self.set.take_events() {
-            if let Event::Warning { warning, .. } = &event
-                && matches!(warning, Warning::EnergyMade { .. })
-            {
-                self.made.push(warning.to_string());
+            let Event::Warning { warning, .. } = &event else { continue };
+            match warning {
+                Warning::EnergyMade { .. } => self.made.push(warning.to_string()),
+                Warning::LongSteps { .. }
+                | Warning::NotResolved { .. }
+                | Warning::EnergyLost { .. }
+                | Warning::CutShort { .. }
+                | Warning::UnsolvedSteps { .. }
+                | Warning::FrictionLags { .. } => self.steps += 1,
+                _ => {}
             }
         }
         Ok(())
