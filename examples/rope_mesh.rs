@@ -21,7 +21,7 @@ fn lamp(world: &mut World, i: usize) -> Entity {
     let (from, to) = ([x, 2.0, 0.0], [x + 0.9, 1.2 + 0.05 * i as f64, 0.3]);
     let lamp = Body::dynamic().at(to).with(ColliderBuilder::ball(0.05).mass(0.5));
     let lamp = world.spawn(lamp).id();
-    let (rope, _) = world.spawn_rope(from, (lamp, [0.0; 3]), Rope::steel(0.008).slack(0.15));
+    let (rope, _) = world.spawn_rope(from, (lamp, to), Rope::steel(0.008).slack(0.15));
     world.entity_mut(rope).insert(surface(4, true));
     rope
 }

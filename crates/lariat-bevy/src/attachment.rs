@@ -19,15 +19,16 @@ use serde::{Deserialize, Serialize};
 /// # let mut world = World::new();
 /// # lariat_bevy::install(&mut world);
 /// let cable = world.spawn(Cable::steel_rope(0.012).between([0.0, 0.0, 0.0], [4.0, 0.0, 0.0])).id();
-/// let load = world.spawn(Body::dynamic().at([4.0, -0.5, 0.0])).id();
+/// let ball = lariat_bevy::rapier::prelude::ColliderBuilder::ball(0.3).mass(20.0);
+/// let load = world.spawn(Body::dynamic().at([4.0, -0.5, 0.0]).with(ball)).id();
 /// world.spawn(Attachment::ball(cable, At::Start).to_world());
 /// world.spawn(Attachment::ball(cable, At::End).to(load).at([0.0, 0.5, 0.0]));
 /// ```
 ///
 /// # Limits
 ///
-/// A ball transmits no moment. A clamp holds the direction of the tangent; the cable has no
-/// torsion.
+/// A ball transmits no moment. A clamp holds the direction of the tangent, and the twist of a cable
+/// with [`Torsion`](crate::Torsion).
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[require(AttachmentReading)]
 #[component(on_discard = discarded)]

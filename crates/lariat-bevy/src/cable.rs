@@ -46,7 +46,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// # Limits
 ///
-/// The constitutive law is linear elastic, with constant EA and EI: see [`lariat_ancf::element`].
+/// Elastic, with constant EA and EI unless it has an [`AxialLaw`](crate::AxialLaw): see
+/// [`lariat_ancf::element`]. Ropes and chains by name ([`Section::of`], [`Section::wire_rope`]) cannot push.
 /// Nothing touches it without a [`Contact`](crate::Contact): see the [crate page](crate#limits).
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[component(immutable, on_insert = built, on_discard = discarded)]

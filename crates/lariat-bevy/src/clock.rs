@@ -1,5 +1,7 @@
 //! Fixed host steps from the time of a frame, for programs without an app.
 
+use crate::cables::Cables;
+use crate::error::Error;
 use crate::event;
 use crate::physics::Physics;
 use crate::schedule::CableStep;
@@ -34,8 +36,14 @@ impl FixedClock {
 
 /// Advances by `elapsed` seconds: runs [`CableStep`] as often as host steps are due, and keeps the
 /// remaining time for the next call. Returns the number of host steps. Messages are kept for two
-/// calls. A time that is negative or not finite counts as zero.
+/// calls. A time that is negative or not finite counts as zero. At most
+/// [`FixedClock::max_steps`] are taken, 8 unless that is set: what is left of a longer time, but for
+/// one host step, is dropped.
+///
+/// # Panics
+/// Without [`install`](crate::install).
 pub fn advance(world: &mut World, elapsed: f64) -> u32 {
+    assert!(world.contains_resource::<Cables>(), "{}", Error::NotInstalled);
     event::update(world);
     let step = f64::from(world.resource::<Physics>().integration_parameters.dt);
     let mut clock = *world.resource::<FixedClock>();

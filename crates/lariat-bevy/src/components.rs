@@ -92,8 +92,9 @@ macro_rules! components {
                 }
             }
 
-            /// Returns the effects on a cable of this section and unstretched length (m).
-            fn effects(&self, section: &Section, length: f64) -> Result<Effects, Error> {
+            /// Returns the effects on a cable of this section and unstretched length (m), with the law
+            /// of a rope where it is one.
+            fn effects(&self, description: &Description, section: &Section, length: f64) -> Result<Effects, Error> {
                 let mut effects =
                     Effects { $($field: self.$field.as_ref().map(|c| c.resolve(section, length)).transpose()?,)* };
                 if let (None, Some(damping)) = (self.bending, &mut effects.damping)
@@ -102,6 +103,9 @@ macro_rules! components {
                 {
                     // only a cable with bending stiffness damps its curvature
                     damping.bending = 0.0;
+                }
+                if effects.axial_law.is_none() && (description.rope || section.is_rope()) {
+                    effects.axial_law = lariat_ancf::AxialLaw::of_rope(&effects, self.rule(description));
                 }
                 Ok(effects)
             }
@@ -144,7 +148,7 @@ impl CableComponents {
         // the builder rejects any other length, with a better message than an effect on such a
         // cable could give
         let effects = match &description.section {
-            Ok(section) if length > 0.0 => self.effects(section, length)?,
+            Ok(section) if length > 0.0 => self.effects(description, section, length)?,
             _ => Effects::default(),
         };
         let cable = description.build(name, self.rule(description), effects, self.loads())?;
@@ -164,7 +168,7 @@ impl CableComponents {
         length: f64,
     ) -> Result<Option<lariat_ancf::Cable>, Error> {
         let (rule, loads) = (self.rule(description), self.loads());
-        let effects = self.effects(&description.section.clone()?, length)?;
+        let effects = self.effects(description, &description.section.clone()?, length)?;
         let same_rule = rule == cable.rule() && effects == *cable.effects();
         let same_loads =
             cable.loads().len() == loads.len() && cable.loads().iter().zip(loads).all(|(a, b)| a.is_same(b));

@@ -20,6 +20,9 @@ pub(crate) enum Span {
 pub(crate) struct Description {
     #[serde(with = "reason")]
     pub section: Result<Section, Error>,
+    /// Whether it cannot push, whatever the section.
+    #[serde(default)]
+    pub rope: bool,
     /// Points of the initial shape in m.
     pub points: Vec<Vector3<f64>>,
     /// Unstretched length in m; `None`: that of the initial shape.
@@ -42,6 +45,7 @@ impl Description {
     pub fn new(section: Result<Section, Error>) -> Self {
         Description {
             section,
+            rope: false,
             points: Vec::new(),
             length: None,
             span: None,

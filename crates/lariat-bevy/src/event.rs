@@ -1,13 +1,16 @@
 //! Events of cables and attachments. Each is sent twice: as a message to read, and as an entity
-//! event to observe.
+//! event to observe. Failures are logged, too, at level error, once each: a rope that cannot be
+//! attached is not missed in a program that observes nothing.
 
 use crate::error::Error;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::event::EntityEvent;
 use bevy_ecs::message::{Message, Messages};
+use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
 use lariat_ancf::Break;
 use lariat_rapier::rapier::geometry::ColliderHandle;
+use std::collections::HashMap;
 
 /// The description of a cable, or a change of its effects, is not possible. A cable that was built
 /// keeps its previous effects.
@@ -109,7 +112,9 @@ pub struct ContactIgnored {
 
 /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Sent once for
 /// each kind, up to the level of [`Settings::warn_level`](lariat_rapier::Settings::warn_level), and
-/// logged; the text of the warning says what to do.
+/// logged; the text of the warning says what to do. What is wrong with how cables and attachments
+/// meet bodies ([`lariat_rapier::Warning`]) is logged alone, before the first host step;
+/// [`CableSet::warnings`](lariat_rapier::CableSet::warnings) returns it at any time.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableWarning {
     /// The cable.
@@ -266,10 +271,13 @@ macro_rules! queue {
         }
 
         impl QueuedEvent {
-            /// Writes the message and runs the observers.
+            /// Writes the message, runs the observers, and logs a failure that this entity has not had.
             pub fn send(self, world: &mut World) {
                 match self {
                     $(QueuedEvent::$event(event) => {
+                        if let Some(failure) = event.failure() {
+                            log_once(world, event.entity, stringify!($event), failure);
+                        }
                         world.write_message(event.clone());
                         world.trigger(event);
                     })*
@@ -285,6 +293,56 @@ macro_rules! queue {
     };
 }
 for_each_event!(queue);
+
+/// What an event tells that the program has to mend.
+trait Failing {
+    /// Returns the text of a failure.
+    fn failure(&self) -> Option<String> {
+        None
+    }
+}
+
+macro_rules! failing {
+    ($($event:ident),*) => { $(
+        impl Failing for $event {
+            fn failure(&self) -> Option<String> {
+                Some(self.error.to_string())
+            }
+        }
+    )* };
+}
+failing!(CableFailed, StepFailed, AttachmentFailed, JunctionFailed, DrumFailed, SheaveFailed, WaterFailed);
+
+macro_rules! not_failing {
+    ($($event:ident),*) => { $( impl Failing for $event {} )* };
+}
+not_failing!(
+    CableAsleep,
+    CableAwake,
+    CableDegraded,
+    CableBroken,
+    CableWarning,
+    ContactStarted,
+    ContactEnded,
+    ContactIgnored,
+    GapOpened,
+    MechanismUnsettled,
+    AttachmentEnded,
+    JunctionEnded
+);
+
+/// The last failure that was logged of each entity and event.
+#[derive(Resource, Default)]
+pub(crate) struct Logged(HashMap<(Entity, &'static str), String>);
+
+/// Logs a failure, unless it is the last one of its entity and event.
+fn log_once(world: &mut World, entity: Entity, event: &'static str, failure: String) {
+    let mut logged = world.get_resource_or_init::<Logged>();
+    if logged.0.get(&(entity, event)) != Some(&failure) {
+        log::error!("{event} of {entity}: {failure}");
+        logged.0.insert((entity, event), failure);
+    }
+}
 
 /// Adds the message queues to a world.
 pub(crate) fn register(world: &mut World) {

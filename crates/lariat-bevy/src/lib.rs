@@ -128,7 +128,7 @@ pub use install::install;
 pub use interpolate::{Interpolate, curve};
 pub use junction::Junction;
 pub use kink::KinkAlong;
-pub use lariat_ancf::{self, At, Fidelity, Point};
+pub use lariat_ancf::{self, At, Fidelity, Point, RopeMaterial, Section, Vector3};
 pub use lariat_rapier::{self, AttachmentKind, Budget, Gap, Rope, RopeEnd, Settings, SheaveOptions, rapier};
 pub use mesh::{RopeMesh, RopeVertices};
 pub use passing::SheaveAlong;

@@ -2,13 +2,18 @@
 
 use crate::event::*;
 use crate::install::install;
+use crate::physics::Physics;
 use crate::schedule::CableStep;
 use bevy_app::{App, FixedUpdate, Plugin};
 use bevy_ecs::intern::Interned;
 use bevy_ecs::schedule::ScheduleLabel;
 use bevy_ecs::world::World;
+use bevy_time::{Fixed, Time};
 
-/// Steps cables and bodies once in each run of a schedule, [`FixedUpdate`] by default.
+/// Steps cables and bodies once in each run of a schedule, [`FixedUpdate`] by default. There a host
+/// step is as long as that of [`Time<Fixed>`](bevy_time::Fixed), 1/64 s unless it is set, and
+/// `integration_parameters.dt` of [`Physics`] follows it; in other schedules, and without
+/// [`TimePlugin`](bevy_time::TimePlugin), that is the host step.
 #[derive(Clone, Debug)]
 pub struct LariatPlugin {
     schedule: Interned<dyn ScheduleLabel>,
@@ -39,9 +44,25 @@ pub fn install_in(app: &mut App) {
     crate::components::register(app);
 }
 
+/// Sets the host step to that of the app.
+fn follow_time(world: &mut World) {
+    let Some(step) = world.get_resource::<Time<Fixed>>().map(|time| time.timestep().as_secs_f32()) else { return };
+    if let Some(mut physics) = world.get_resource_mut::<Physics>()
+        && physics.integration_parameters.dt != step
+    {
+        physics.integration_parameters.dt = step;
+    }
+}
+
 impl Plugin for LariatPlugin {
     fn build(&self, app: &mut App) {
         install_in(app);
-        app.add_systems(self.schedule, |world: &mut World| world.run_schedule(CableStep));
+        let is_fixed = self.schedule == FixedUpdate.intern();
+        app.add_systems(self.schedule, move |world: &mut World| {
+            if is_fixed {
+                follow_time(world);
+            }
+            world.run_schedule(CableStep);
+        });
     }
 }

@@ -14,9 +14,10 @@ use lariat_rapier::{ROPE_DAMPING, Rope, RopeEnd};
 
 /// Spawns ropes, from [`Commands`] or a [`World`].
 pub trait SpawnRope {
-    /// Spawns the usual rope between two points of the world, held there by bodies or by the world:
-    /// a cable with bending stiffness and damping, and an attachment at either end. Returns the
-    /// entity of the cable, and those of the attachments.
+    /// Spawns the usual rope between two points in m, in axes of the *world* for ends on bodies, too
+    /// (where [`Attachment::anchor`](crate::Attachment::anchor) is in those of the body), held there
+    /// by bodies or by the world: a cable with bending stiffness and damping, which cannot push, and
+    /// an attachment at either end. Returns the entity of the cable, and those of the attachments.
     ///
     /// ```
     /// use bevy_ecs::prelude::*;
@@ -55,6 +56,7 @@ impl SpawnRope for Commands<'_, '_> {
         let (from, to) = (from.into(), to.into());
         let section = rope.section.clone();
         let mut description = Description::new(section);
+        description.rope = true;
         description.points = vec![from.point, to.point];
         description.length = Some(rope.length(&from.point, &to.point));
         description.elements = rope.elements;

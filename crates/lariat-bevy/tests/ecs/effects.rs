@@ -5,8 +5,8 @@ use bevy_ecs::prelude::*;
 use lariat_bevy::event::CableFailed;
 use lariat_bevy::lariat_ancf::{self, Error, PointLoad, RestPiece, Vector3};
 use lariat_bevy::{
-    At, Attachment, Bending, Buoyancy, Damping, Diagnostics, Drag, GravityScale, LineLoads, PointLoads, RestShape,
-    Rule, Torsion,
+    At, Attachment, AxialLaw, Bending, Buoyancy, Cable, Damping, Diagnostics, Drag, GravityScale, LineLoads,
+    PointLoads, RestShape, Rope, RopeMaterial, Rule, Section, SpawnRope, Torsion,
 };
 
 /// Runs host steps and returns the counters of all cables in them.
@@ -202,4 +202,35 @@ fn torsion_is_a_component() {
     world.entity_mut(cable).remove::<Torsion>();
     steps(&mut world, 1);
     assert_eq!(torque(&world), None);
+}
+
+/// Ropes and chains by name, and what `spawn_rope` spawns, have the law of a rope, and keep it when other components come and go; a
+/// component of one's own takes its place.
+///
+/// *Source.* The contract of `Section::of` and `Rope::new`.
+#[test]
+fn ropes_cannot_push() {
+    let mut world = world();
+    let law = |world: &World, cable| cable_of(world, cable).effects().axial_law.clone();
+    let rope = Some(lariat_ancf::AxialLaw::Rope);
+    let of = |section: Section| Cable::new(section).between([0.0; 3], [2.0, 0.0, 0.0]);
+    let (nylon, solid) = (RopeMaterial::Nylon.section(0.01).unwrap(), Section::round(0.01, 1e9, 1000.0).unwrap());
+    let named = world.spawn(of(nylon)).id();
+    let steel = world.spawn(Cable::steel_rope(0.01).between([0.0; 3], [2.0, 0.0, 0.0])).id();
+    let plain = world.spawn(of(solid)).id();
+    let [usual, stiff] = [Rope::named(RopeMaterial::Nylon, 0.01), Rope::new(solid)]
+        .map(|rope| world.spawn_rope([0.0; 3], [2.0, 0.0, 0.0], rope).0);
+    for cable in [named, steel, usual, stiff] {
+        assert_eq!(law(&world, cable), rope);
+        world.entity_mut(cable).insert((Bending, Drag::air()));
+        steps(&mut world, 2);
+        assert_eq!(law(&world, cable), rope);
+        world.entity_mut(cable).remove::<Drag>();
+        steps(&mut world, 2);
+        assert_eq!(law(&world, cable), rope);
+    }
+    assert_eq!(law(&world, plain), None);
+    world.entity_mut(named).insert(AxialLaw(lariat_ancf::AxialLaw::Hooke));
+    steps(&mut world, 1);
+    assert_eq!(law(&world, named), Some(lariat_ancf::AxialLaw::Hooke));
 }

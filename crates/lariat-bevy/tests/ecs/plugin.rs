@@ -5,9 +5,14 @@ use bevy_app::{App, Update};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_reflect::TypeRegistry;
+use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
 use core::any::TypeId;
+use core::time::Duration;
 use lariat_bevy::event::CableFailed;
-use lariat_bevy::{Bending, Cable, CableStep, CableSystems, LariatPlugin, PointLoads, RapierStep, Rule};
+use lariat_bevy::rapier::prelude::ColliderBuilder;
+use lariat_bevy::{
+    Bending, Body, BodyPose, Cable, CableStep, CableSystems, LariatPlugin, PointLoads, RapierStep, Rule,
+};
 
 #[derive(Resource, Default)]
 struct Order(Vec<&'static str>);
@@ -30,6 +35,25 @@ fn user_systems_run_between_the_stages() {
     assert_eq!(app.world().resource::<Order>().0, ["before", "predicted", "stepped", "after"]);
     let time = cable_of(app.world(), cable).time();
     assert!((time - 1.0 / 60.0).abs() < 1e-7);
+}
+
+/// In `FixedUpdate` a second of the app is a second of the bodies, whatever its fixed step is.
+///
+/// *Source.* Free fall of a second: 4.905 m, and half a step more by Rapier's semi-implicit steps of at most the host step.
+#[test]
+fn a_second_of_an_app_is_one_of_its_bodies() {
+    for rate in [30.0, 60.0, 64.0, 120.0] {
+        let mut app = App::new();
+        app.add_plugins((TimePlugin, LariatPlugin::default()));
+        app.insert_resource(Time::<Fixed>::from_hz(rate));
+        app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs_f64(1.0 / rate)));
+        let ball = Body::dynamic().with(ColliderBuilder::ball(0.1).mass(1.0));
+        let ball = app.world_mut().spawn(ball).id();
+        // the first update starts the clock
+        (0..=rate as usize).for_each(|_| app.update());
+        let fallen = -f64::from(app.world().get::<BodyPose>(ball).unwrap().position.y);
+        assert!((4.9..=4.905 * (1.0 + 1.1 / rate)).contains(&fallen), "{rate} Hz: {fallen} m");
+    }
 }
 
 #[test]
