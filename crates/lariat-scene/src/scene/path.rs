@@ -20,7 +20,7 @@ table! {
         rotation: Option<Vec<[f64; 4]>> = ("as the body has it"), Kind::Ascending(&["t", "x", "y", "z"]), "s, rad";
         /// Instead of both a text file, named from the folder of the scene, with rows `t,x,y,z` or `t,x,y,z,rx,ry,rz`; a first row of names is left out.
         csv: Option<String> = (), Kind::Text;
-        /// Whether the velocity is continuous from row to row (cubics), or the path is linear between rows. It stays between equal rows, and is at rest outside in any case: begin and end with two equal rows to start and stop without a jump.
+        /// Whether the velocity is continuous from row to row (cubics), or the path is linear between rows. It stays between equal rows, and is at rest outside in any case: begin and end with two equal rows to start and stop without a jump. Cubics through the corners of a trapezoid of velocities alone are another motion: put rows between them.
         smooth: bool = true, Kind::Flag;
     }
     choose Choose::AtLeastOne(&["rows", "rotation", "csv"]);
