@@ -67,6 +67,11 @@ impl IslandStage<'_, '_, '_> {
 }
 
 impl Linearised for IslandStage<'_, '_, '_> {
+    fn corner_tolerance(&self) -> f64 {
+        let slack = self.equations.cables.iter().any(|cable| cable.model.goes_slack());
+        if slack { self.stage.newton_tolerance } else { 0.0 }
+    }
+
     fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure> {
         let IslandStage { equations, stage, y, v, z, rhs, .. } = self;
         for cable in equations.cables.iter_mut() {

@@ -252,6 +252,11 @@ impl Model {
         strands.map_or(element.section.axial_stiffness, |strands| strands.axial(element))
     }
 
+    /// Returns whether it becomes slack, by its axial law.
+    pub fn goes_slack(&self) -> bool {
+        matches!(self.effects.axial_law, Some(AxialLaw::Rope | AxialLaw::Curve(_)))
+    }
+
     /// Returns whether a force depends on velocity.
     pub(crate) fn depends_on_velocity(&self) -> bool {
         self.least_damping().is_some()

@@ -33,6 +33,10 @@ struct CableStage<'a, 'b> {
 }
 
 impl Linearised for CableStage<'_, '_> {
+    fn corner_tolerance(&self) -> f64 {
+        if self.equations.model.goes_slack() { self.stage.newton_tolerance } else { 0.0 }
+    }
+
     fn increment(&mut self, fresh: bool) -> Result<Increment, StepFailure> {
         let CableStage { equations, stage, y, velocity_base, .. } = self;
         let Buffers { rhs, product, z, velocity, .. } = &mut *self.buffers;

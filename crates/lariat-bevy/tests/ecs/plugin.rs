@@ -51,7 +51,7 @@ fn a_second_of_an_app_is_one_of_its_bodies() {
         let ball = app.world_mut().spawn(ball).id();
         // the first update starts the clock
         (0..=rate as usize).for_each(|_| app.update());
-        let fallen = -f64::from(app.world().get::<BodyPose>(ball).unwrap().position.y);
+        let fallen = -app.world().get::<BodyPose>(ball).unwrap().position.y;
         assert!((4.9..=4.905 * (1.0 + 1.1 / rate)).contains(&fallen), "{rate} Hz: {fallen} m");
     }
 }
