@@ -77,7 +77,7 @@ fn picture<'a>(surfaces: impl Iterator<Item = &'a RopeVertices>) -> String {
     }
     triangles.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut svg =
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-10 0 500 190\" stroke-width=\"0.2\">\n".to_string();
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-100 0 470 115\" stroke-width=\"0.2\">\n".to_string();
     for (_, [a, b, c], [red, green, blue]) in triangles {
         let colour = format!("#{red:02x}{green:02x}{blue:02x}");
         let _ = writeln!(
