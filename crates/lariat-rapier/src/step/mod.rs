@@ -56,7 +56,7 @@ use crate::body::prescribed_motion::PrescribedMotions;
 use crate::body::proximity;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
-use crate::edit::reel::passing;
+use crate::edit::reel::beyond;
 use crate::edit::{attach, breaking};
 use crate::error::{Error, Failure};
 use crate::events::Event;
@@ -316,7 +316,7 @@ fn prepare_islands(
 ) -> Result<StepParameters, Error> {
     let Finder { touching, neighbours, .. } = &stepper.finder;
     if contents.changed {
-        passing::count(contents);
+        beyond::count(contents);
     }
     stepper.islands.update(contents, world, touching, &neighbours.pairs)?;
     let budget = stepper.budget;

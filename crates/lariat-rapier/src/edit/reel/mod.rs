@@ -1,6 +1,7 @@
 //! What cables run over, and what they are wound on: sheaves at an end and along a cable, and
 //! drums.
 
+pub(crate) mod beyond;
 pub(crate) mod drums;
 pub(crate) mod passing;
 pub(crate) mod sheaves;

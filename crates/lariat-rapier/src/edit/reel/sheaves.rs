@@ -1,6 +1,6 @@
 //! Adding and ending sheaves, and keeping them with the end of a cable that is cut.
 
-use super::passing;
+use super::beyond;
 use crate::contents::Contents;
 use crate::contents::reel::sheave::{Sheave, SheaveOptions};
 use crate::error::Error;
@@ -30,7 +30,7 @@ pub(crate) fn add(
     wheel.radius = radius;
     contents.changed = true;
     let sheave = SheaveHandle(contents.sheaves.push(Sheave { ends, wheel, along }) as u32);
-    passing::count(contents);
+    beyond::count(contents);
     Ok(sheave)
 }
 
