@@ -273,11 +273,11 @@ macro_rules! queue {
         impl QueuedEvent {
             /// Writes the message, runs the observers, and logs a failure that this entity has not had.
             pub fn send(self, world: &mut World) {
+                if let Some(mut logged) = world.get_resource_mut::<Logged>() {
+                    logged.note(&self);
+                }
                 match self {
                     $(QueuedEvent::$event(event) => {
-                        if let Some(failure) = event.failure() {
-                            log_once(world, event.entity, stringify!($event), failure);
-                        }
                         world.write_message(event.clone());
                         world.trigger(event);
                     })*
@@ -294,53 +294,33 @@ macro_rules! queue {
 }
 for_each_event!(queue);
 
-/// What an event tells that the program has to mend.
-trait Failing {
-    /// Returns the text of a failure.
-    fn failure(&self) -> Option<String> {
-        None
-    }
-}
-
-macro_rules! failing {
-    ($($event:ident),*) => { $(
-        impl Failing for $event {
-            fn failure(&self) -> Option<String> {
-                Some(self.error.to_string())
+macro_rules! failures {
+    ($($event:ident),*) => {
+        impl QueuedEvent {
+            /// Returns entity, event and text of one that the program has to mend.
+            fn failure(&self) -> Option<(Entity, &'static str, String)> {
+                match self {
+                    $(QueuedEvent::$event(event) => Some((event.entity, stringify!($event), event.error.to_string())),)*
+                    _ => None,
+                }
             }
         }
-    )* };
+    };
 }
-failing!(CableFailed, StepFailed, AttachmentFailed, JunctionFailed, DrumFailed, SheaveFailed, WaterFailed);
-
-macro_rules! not_failing {
-    ($($event:ident),*) => { $( impl Failing for $event {} )* };
-}
-not_failing!(
-    CableAsleep,
-    CableAwake,
-    CableDegraded,
-    CableBroken,
-    CableWarning,
-    ContactStarted,
-    ContactEnded,
-    ContactIgnored,
-    GapOpened,
-    MechanismUnsettled,
-    AttachmentEnded,
-    JunctionEnded
-);
+failures!(CableFailed, StepFailed, AttachmentFailed, JunctionFailed, DrumFailed, SheaveFailed, WaterFailed);
 
 /// The last failure that was logged of each entity and event.
 #[derive(Resource, Default)]
 pub(crate) struct Logged(HashMap<(Entity, &'static str), String>);
 
-/// Logs a failure, unless it is the last one of its entity and event.
-fn log_once(world: &mut World, entity: Entity, event: &'static str, failure: String) {
-    let mut logged = world.get_resource_or_init::<Logged>();
-    if logged.0.get(&(entity, event)) != Some(&failure) {
-        log::error!("{event} of {entity}: {failure}");
-        logged.0.insert((entity, event), failure);
+impl Logged {
+    /// Logs a failure, unless it is the last one of its entity and event.
+    pub fn note(&mut self, event: &QueuedEvent) {
+        let Some((entity, event, failure)) = event.failure() else { return };
+        if self.0.get(&(entity, event)) != Some(&failure) {
+            log::error!("{event} of {entity}: {failure}");
+            self.0.insert((entity, event), failure);
+        }
     }
 }
 
@@ -350,6 +330,7 @@ pub(crate) fn register(world: &mut World) {
         ($($event:ident),*) => { $( world.init_resource::<Messages<$event>>(); )* };
     }
     for_each_event!(init);
+    world.init_resource::<Logged>();
 }
 
 /// Drops messages that are two updates old.

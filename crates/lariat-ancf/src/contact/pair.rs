@@ -223,18 +223,25 @@ pub(super) fn is_thin(found: &Nearest, radius: f64, length: f64) -> bool {
     found.feature && found.patch.radius().is_some_and(|own| own > 0.0 && !is_wide(own, radius, length))
 }
 
-/// Returns the centre and the radius of a ball about an element, and its largest way in the first
-/// iterate.
-pub(super) fn bounding_ball(motion: &Motion<'_>, element: usize, length: f64) -> (Vector3<f64>, f64, f64) {
-    let corners = |x: &[f64]| {
-        let d: [Vector3<f64>; 4] =
-            core::array::from_fn(|k| Vector3::from_column_slice(&x[6 * element + 3 * k..6 * element + 3 * k + 3]));
-        let third = length / 3.0;
-        [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]]
-    };
-    let (places, ways) = (corners(motion.q), corners(motion.change));
+/// Returns the Bezier points of an element of nodal vectors.
+fn corners(x: &[f64], element: usize, length: f64) -> [Vector3<f64>; 4] {
+    let d: [Vector3<f64>; 4] =
+        core::array::from_fn(|k| Vector3::from_column_slice(&x[6 * element + 3 * k..6 * element + 3 * k + 3]));
+    let third = length / 3.0;
+    [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]]
+}
+
+/// Returns the centre and the radius of a ball about an element at coordinates.
+pub(super) fn ball(q: &[f64], element: usize, length: f64) -> (Vector3<f64>, f64) {
+    let places = corners(q, element, length);
     let centre = (places[0] + places[1] + places[2] + places[3]) * 0.25;
-    let size = places.iter().fold(0.0, |most: f64, p| most.max((p - centre).norm()));
+    (centre, places.iter().fold(0.0, |most: f64, p| most.max((p - centre).norm())))
+}
+
+/// Returns that ball when the step begins, and the largest way of the element in the first iterate.
+pub(super) fn bounding_ball(motion: &Motion<'_>, element: usize, length: f64) -> (Vector3<f64>, f64, f64) {
+    let (centre, size) = ball(motion.q, element, length);
+    let ways = corners(motion.change, element, length);
     (centre, size, ways.iter().fold(0.0, |most: f64, w| most.max(w.norm())))
 }
 

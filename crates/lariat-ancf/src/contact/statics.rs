@@ -31,7 +31,7 @@
 //! Motion with damping until it rests: its last digits take as long as all before.
 
 use super::law::NormalLaw;
-use super::pair::{is_thin, samples};
+use super::pair::{ball, is_thin, samples};
 use crate::effect::Contact;
 use crate::element::assembly::add_tangent;
 use crate::element::shape;
@@ -79,19 +79,29 @@ impl Growth {
     }
 }
 
-/// A sample in an obstacle.
-struct Sample<'a> {
+/// A sample of a cable that may touch an obstacle.
+#[derive(Clone, Copy)]
+struct Place<'a> {
     element: usize,
-    place: u32,
+    number: u32,
     xi: f64,
+    /// Arc length in m.
+    at: f64,
     shape: [f64; 4],
     weight: f64,
     obstacle: &'a Obstacle,
+    /// Gap at which it touches, and of it the radius of the cable.
+    reach: f64,
+    radius: f64,
+    contact: Contact,
+}
+
+/// One that is in it.
+struct Sample<'a> {
+    place: Place<'a>,
     patch: Patch,
     /// Whether a feature of the obstacle acts there, in motion.
     thin: bool,
-    /// Gap at which it touches.
-    reach: f64,
     depth: f64,
     normal: Vector3<f64>,
     /// Axes of the obstacle.
@@ -127,7 +137,7 @@ impl StaticContact {
     /// itself is of no use.
     pub fn is_deep(&self, model: &Model, q: &[f64]) -> bool {
         let mut deep = false;
-        self.visit(model, q, |sample| deep |= sample.depth > sample.reach);
+        self.visit(model, q, |sample| deep |= sample.depth > sample.place.reach);
         deep
     }
 
@@ -198,14 +208,14 @@ impl StaticContact {
         mut matrix: Option<&mut BlockTridiagonal>,
     ) {
         self.visit(model, q, |sample| {
-            let (e, n) = (sample.element, &sample.normal);
-            for (k, weight) in sample.shape.iter().enumerate() {
+            let (Place { element: e, shape, .. }, n) = (&sample.place, &sample.normal);
+            for (k, weight) in shape.iter().enumerate() {
                 for x in 0..3 {
                     out[6 * e + 3 * k + x] += scale * weight * sample.force * n[x];
                 }
             }
             if let Some(matrix) = &mut matrix {
-                add_tangent(matrix, e, &sample.shape, &(sample.tangent() * scale));
+                add_tangent(matrix, *e, shape, &(sample.tangent() * scale));
             }
         });
     }
@@ -223,11 +233,10 @@ impl StaticContact {
     pub fn snag(&self, model: &Model, q: &[f64]) -> Option<(u64, f64, f64)> {
         let mut of_obstacles: Vec<(u64, f64, [f64; 2])> = Vec::new();
         self.visit(model, q, |sample| {
-            let length = model.elements[sample.element].length;
-            let tangent = combine(q, sample.element, &shape::slope(sample.xi, length)).normalize();
-            let (key, force) = (sample.obstacle.key, sample.force * sample.normal.dot(&tangent));
-            let begin: f64 = model.elements[..sample.element].iter().map(|element| element.length).sum();
-            let here = [force.abs(), begin + sample.xi * length];
+            let Place { element, xi, at, obstacle, .. } = sample.place;
+            let slope = shape::slope(xi, model.elements[element].length);
+            let force = sample.force * sample.normal.dot(&combine(q, element, &slope).normalize());
+            let (key, here) = (obstacle.key, [force.abs(), at]);
             match of_obstacles.iter_mut().find(|(own, ..)| *own == key) {
                 Some((_, sum, most)) => {
                     *sum += force;
@@ -245,12 +254,13 @@ impl StaticContact {
         memory.clear();
         self.visit(model, q, |sample| {
             if !sample.thin {
+                let Place { element, number, xi, weight, obstacle, .. } = sample.place;
                 memory.push(ContactMemory {
-                    element: sample.element as u32,
-                    place: sample.place,
-                    obstacle: sample.obstacle.key,
-                    xi: sample.xi,
-                    weight: sample.weight,
+                    element: element as u32,
+                    place: number,
+                    obstacle: obstacle.key,
+                    xi,
+                    weight,
                     patch: sample.patch,
                     normal: sample.axes.inverse() * sample.normal,
                     depth: sample.depth,
@@ -274,7 +284,7 @@ impl StaticContact {
     /// Calls `f` with every sample that is in an obstacle.
     fn visit(&self, model: &Model, q: &[f64], mut f: impl FnMut(&Sample<'_>)) {
         self.visit_samples(model, q, None, |place| {
-            let Place { element, place, xi, shape, weight, obstacle, reach, radius, contact } = *place;
+            let Place { element, shape, weight, obstacle, reach, radius, contact, .. } = *place;
             let section = &model.elements[element];
             let (y, axes) = own(obstacle, self.time, &combine(q, element, &shape));
             let nearest = obstacle.surface.nearest(&y);
@@ -287,15 +297,9 @@ impl StaticContact {
             let law = if self.depth > 0.0 { law.softened(self.load, self.depth) } else { law };
             let pressure = law.at(depth);
             f(&Sample {
-                element,
-                place,
-                xi,
-                shape,
-                weight,
-                obstacle,
+                place: *place,
                 patch: nearest.patch,
                 thin: is_thin(&nearest, radius, section.length),
-                reach,
                 depth,
                 normal: axes * normal,
                 axes,
@@ -327,41 +331,17 @@ impl StaticContact {
                 if obstacle.surface.nearest(&own(obstacle, self.time, &centre).0).distance > size + reach {
                     continue;
                 }
-                for (place, xi, weight) in samples(&contact, model, element) {
+                for (number, xi, weight) in samples(&contact, model, element) {
                     let at = start + xi * section.length;
                     let held = self.held.iter().any(|(k, [low, high])| *k == i && (*low..=*high).contains(&at));
                     if !held && !obstacle.excepts(at) {
                         let shape = shape::position(xi, section.length);
-                        f(&Place { element, place, xi, shape, weight, obstacle, reach, radius, contact });
+                        f(&Place { element, number, xi, at, shape, weight, obstacle, reach, radius, contact });
                     }
                 }
             }
         }
     }
-}
-
-/// A place of a cable that may touch an obstacle.
-struct Place<'a> {
-    element: usize,
-    place: u32,
-    xi: f64,
-    shape: [f64; 4],
-    weight: f64,
-    obstacle: &'a Obstacle,
-    /// Gap at which it touches, and of it the radius of the cable.
-    reach: f64,
-    radius: f64,
-    contact: Contact,
-}
-
-/// Returns the centre and the radius of a ball about an element at coordinates.
-fn ball(q: &[f64], element: usize, length: f64) -> (Vector3<f64>, f64) {
-    let third = length / 3.0;
-    let d: [Vector3<f64>; 4] =
-        core::array::from_fn(|k| Vector3::from_column_slice(&q[6 * element + 3 * k..6 * element + 3 * k + 3]));
-    let corners = [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]];
-    let centre = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
-    (centre, corners.iter().fold(0.0, |most: f64, x| most.max((x - centre).norm())))
 }
 
 impl Sample<'_> {
@@ -382,7 +362,7 @@ impl Sample<'_> {
     }
 
     fn gap(&self) -> f64 {
-        self.reach - self.depth
+        self.place.reach - self.depth
     }
 }
 

@@ -144,24 +144,32 @@ impl Watch {
 
     fn strain(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
         let [share, tension_n, axial_stiffness_n, time_s] = self.tension;
+        let cable_name = || cable.name().to_string();
         // a law of one's own is meant as it is, as far as it was measured, or the make bears it
-        if let Some(law) = &cable.effects().axial_law {
-            if let AxialLaw::Curve(rows) = law {
+        match &cable.effects().axial_law {
+            None => (share > STRAIN).then(|| Warning::LargeStrain {
+                cable: cable_name(),
+                time_s,
+                tension_n,
+                axial_stiffness_n,
+            }),
+            Some(AxialLaw::Curve(rows)) => {
                 let &[strain, force_n] = rows.last()?;
-                let cable = cable.name().to_string();
-                let beyond = tension_n > force_n;
-                return beyond.then_some(Warning::BeyondCurve { cable, time_s, tension_n, strain, force_n });
+                (tension_n > force_n).then(|| Warning::BeyondCurve {
+                    cable: cable_name(),
+                    time_s,
+                    tension_n,
+                    strain,
+                    force_n,
+                })
             }
-            if share <= BREAKING || cable.strength() != Strength::default() {
-                return None;
+            Some(_) if share <= BREAKING || cable.strength() != Strength::default() => None,
+            Some(_) => {
+                let bears = cable.elements().iter().filter_map(|element| element.section.bears());
+                let bears_n = bears.fold(f64::INFINITY, f64::min);
+                (tension_n > bears_n).then(|| Warning::Overloaded { cable: cable_name(), time_s, tension_n, bears_n })
             }
-            let bears = cable.elements().iter().filter_map(|element| element.section.bears());
-            let bears_n = bears.fold(f64::INFINITY, f64::min);
-            let cable = cable.name().to_string();
-            return (tension_n > bears_n).then_some(Warning::Overloaded { cable, time_s, tension_n, bears_n });
         }
-        let cable = || cable.name().to_string();
-        (share > STRAIN).then(|| Warning::LargeStrain { cable: cable(), time_s, tension_n, axial_stiffness_n })
     }
 
     /// What is told of a strain that is not large.
