@@ -152,8 +152,11 @@ pub(crate) const MAX_ITERATIONS_OF_LAWS: usize = 20;
 /// Unknown: the weight at a nanometre.
 pub(crate) const CLOSURE_OF_WEIGHT: f64 = 1e-6;
 
-/// Share of the velocities relative to rigid motion that rescaling may take. Derived: that of half
-/// of their energy, 1 - 2^(-1/2).
+/// Share of the velocities relative to rigid motion that rescaling may take. Derived: that of a
+/// hundredth of their energy, which the balance of a step may miss in any case, 1 - 0.99^(1/2).
+pub(crate) const SHARE_OF_A_HUNDREDTH_OF_THE_ENERGY: f64 = 0.005_012_562_893_380_045;
+
+/// What it may take in the last division. Derived: that of half of their energy, 1 - 2^(-1/2).
 pub(crate) const SHARE_OF_HALF_THE_ENERGY: f64 = 0.292_893_218_813_452_5;
 
 /// Largest number of divisions of divisions. Unknown: 1/240 s is then divided down to 1 us.

@@ -25,7 +25,8 @@
 //! back: `M v - D` changes by h (F + J) exactly. Munk's moment is that of the momentum and the
 //! attitude in the middle of the step. A body in an island of cables, which nothing else touches,
 //! has R1 as carried inertia and k as force: then J moves all of M, D is none, and what J changed
-//! Munk's moment by, beyond what was expected, is made up for in the next step.
+//! Munk's moment by, beyond what was expected, is made up for in the next step: its energy is off
+//! in the step in which a rope snaps taut.
 //!
 //! # Validity
 //!
