@@ -10,7 +10,7 @@
 use super::feature::Feature;
 use lariat_ancf::{
     AxialLaw, Buoyancy, Contact, Damping, Drag, Effects, Fidelity, Flow, GravityScale, Integrator, LineLoad, PointLoad,
-    Reel, RestShape, Section, Strength, Surface, Torsion, Vector3, Water,
+    Reel, RestShape, Section, Strength, Surface, Torsion, Vector3, Water, Wave,
 };
 
 /// Length of the rope in m.
@@ -101,8 +101,8 @@ pub struct Draft {
     pub end: Hold,
     /// A body in the middle, beside the one at the end.
     pub middle: Option<Kind>,
-    /// Whether what holds an end also holds its direction.
-    pub clamps: bool,
+    /// Whether what holds the start, and the end, also holds its direction.
+    pub clamps: [bool; 2],
     /// Whether it runs over a sheave in its middle.
     pub sheave: bool,
     /// Whether the wheel of that has friction and inertia.
@@ -125,6 +125,8 @@ pub struct Draft {
     pub cut: bool,
     /// Water that its free bodies are in.
     pub water: Option<Water>,
+    /// Added mass of these bodies along their axes, as shares of what they displace.
+    pub added_mass: [f64; 3],
     /// What it can touch.
     pub things: Vec<Thing>,
     /// Its fidelity; that of the set without.
@@ -148,7 +150,7 @@ impl Draft {
             start: Hold::Free,
             end: Hold::Free,
             middle: None,
-            clamps: false,
+            clamps: [false; 2],
             sheave: false,
             heavy: false,
             tied: false,
@@ -160,6 +162,7 @@ impl Draft {
             strength: None,
             cut: false,
             water: None,
+            added_mass: [0.5; 3],
             things: Vec::new(),
             fidelity: None,
             elements: elements(features),
@@ -196,6 +199,10 @@ impl Draft {
             Feature::KinematicBody => self.hold(Hold::Body(Kind::Kinematic)),
             Feature::TurningPath => self.hold(Hold::Body(Kind::Turning)),
             Feature::DynamicBody => self.carry(Kind::Dynamic),
+            Feature::ClampedBody => {
+                self.carry(Kind::Dynamic);
+                self.clamps[1] = true;
+            }
             Feature::ImpulseJoint => self.carry(Kind::Impulse),
             Feature::MultibodyJoint => self.carry(Kind::Multibody),
             Feature::TouchesFloor => self.touch(Some(Thing::Floor)),
@@ -204,11 +211,12 @@ impl Draft {
             Feature::TouchesItself => self.touch(None),
             Feature::TouchesCable => self.touch(Some(Thing::Cable)),
             Feature::ReelByRate => self.wind(Wound::Reel(Reel { rate: vec![[0.0, 0.4]], ..Reel::default() })),
+            // what slips has no equilibrium
             Feature::ReelByForce => {
-                let motor = Reel { rate: vec![[0.0, -0.4]], max_force: Some(1.5), inertia: 0.1, ..Reel::default() };
+                let max_force = Some(if self.rests { 5.0 } else { 1.5 });
+                let motor = Reel { rate: vec![[0.0, -0.4]], max_force, inertia: 0.1, ..Reel::default() };
                 self.wind(Wound::Reel(motor));
             }
-            // a brake that slips has no equilibrium
             Feature::ReelBrake => {
                 self.wind(Wound::Reel(Reel { inertia: 0.05, ..Reel::brake(if self.rests { 5.0 } else { 0.5 }) }))
             }
@@ -238,11 +246,12 @@ impl Draft {
                 effects.torsion = Some(Torsion { damping: 1.0, ..Torsion::stranded(1e-3, 0.1, 0.02) });
                 self.clamp_both();
             }
-            Feature::Water => {
-                effects.drag = Some(Drag { diameter: Some(0.02), ..water().drag(1.2, 0.02) });
-                self.water = Some(water());
-                self.carry(Kind::Dynamic);
+            Feature::Water => self.immerse(water()),
+            Feature::AddedMass => {
+                self.added_mass = [0.2, 0.9, 0.5];
+                self.immerse(water());
             }
+            Feature::Wave => self.immerse(waving()),
             Feature::RestShape => effects.rest_shape = Some(RestShape::curved(2.0)),
             Feature::GravityScale => effects.gravity_scale = Some(GravityScale(0.8)),
             Feature::LineLoad => effects.line_loads = Some(LineLoad::uniform(Vector3::new(0.0, 0.0, 0.3)).into()),
@@ -274,9 +283,16 @@ impl Draft {
         if self.end == Hold::Free { self.end = Hold::Body(kind) } else { self.middle = Some(kind) }
     }
 
+    /// Puts the rope and its free bodies into water, and such a body on the rope.
+    fn immerse(&mut self, water: Water) {
+        self.effects.drag = Some(Drag { diameter: Some(0.02), ..water.drag(1.2, 0.02) });
+        self.water = Some(water);
+        self.carry(Kind::Dynamic);
+    }
+
     /// Clamps what holds both ends, and puts a body on an end that nothing holds: one clamp bears no torque.
     fn clamp_both(&mut self) {
-        self.clamps = true;
+        self.clamps = [true; 2];
         if self.end == Hold::Free {
             self.end = Hold::Body(Kind::Dynamic);
         }
@@ -349,6 +365,14 @@ fn elements(features: &[Feature]) -> usize {
 pub fn water() -> Water {
     let surface = Surface::at(0.01, Vector3::new(0.0, -9.81, 0.0));
     Water::new(300.0).with_flow(Flow::uniform(Vector3::new(0.3, 0.0, 0.4)).with_surface(surface))
+}
+
+/// Returns such water with a wave on it.
+pub fn waving() -> Water {
+    let mut water = water();
+    let wave = Wave::deep(0.03, 1.0, Vector3::new(1.0, 0.0, 0.5));
+    water.flow.surface.iter_mut().for_each(|surface| surface.wave = Some(wave));
+    water
 }
 
 /// Returns a force that grows, turns round and fades from a time (s) on; its corners are at host

@@ -44,6 +44,8 @@ features! {
     TurningPath = "path that turns",
     /// A free dynamic body.
     DynamicBody = "dynamic body",
+    /// A dynamic body that holds the direction of an end, too.
+    ClampedBody = "clamp on a body",
     /// A body on an impulse joint.
     ImpulseJoint = "body on an impulse joint",
     /// A body on a multibody joint.
@@ -88,6 +90,10 @@ features! {
     Buoyancy = "buoyancy",
     /// Water with a level and a current, a cable and a body in it.
     Water = "water",
+    /// Water whose added mass is another along each axis of a body.
+    AddedMass = "added mass by axes",
+    /// Water with a wave.
+    Wave = "wave",
     /// A rest shape.
     RestShape = "rest shape",
     /// Torsion, twisted as built, between clamps.
@@ -138,7 +144,7 @@ impl Feature {
         Some(match self {
             TouchesFloor | TouchesMoving | TouchesLoose | TouchesItself | TouchesCable => "contact",
             AxialDamping | BendingDamping => "damping",
-            Drag | Current | Water => "drag",
+            Drag | Current | Water | AddedMass | Wave => "drag",
             Buoyancy => "buoyancy",
             RestShape => "rest_shape",
             Torsion | Stranded => "torsion",
@@ -154,7 +160,8 @@ impl Feature {
     pub fn term(self) -> &'static str {
         match self {
             FixedBody | KinematicBody | TurningPath | Junction | Kink => "pins",
-            DynamicBody | ImpulseJoint | MultibodyJoint | Water => "bodies",
+            DynamicBody | ClampedBody | ImpulseJoint | MultibodyJoint => "bodies",
+            feature if feature.is_water() => "bodies",
             ReelByRate | ReelByForce | ReelBrake | FreeSpool | Sheave | HeavySheave | Drum => "reels",
             Torsion | Stranded => "torsion",
             feature if feature.is_contact() => "contacts",
@@ -172,9 +179,9 @@ impl Feature {
         matches!(self, Held | Clamped | Prescribed | FixedBody | KinematicBody | TurningPath)
     }
 
-    /// Whether it is a body that cables move.
-    pub fn is_body(self) -> bool {
-        matches!(self, DynamicBody | ImpulseJoint | MultibodyJoint)
+    /// Whether it is water that bodies are in.
+    pub fn is_water(self) -> bool {
+        matches!(self, Water | AddedMass | Wave)
     }
 
     /// Whether it winds cable at an end.
@@ -189,8 +196,10 @@ impl Feature {
 
     /// Whether a system that has it, and no more, keeps its momentum: nothing acts from outside.
     pub fn keeps_momentum(self) -> bool {
-        let internal =
-            matches!(self, DynamicBody | Junction | Kink | TouchesLoose | TouchesItself | TouchesCable | Break | Cut);
+        let internal = matches!(
+            self,
+            DynamicBody | ClampedBody | Junction | Kink | TouchesLoose | TouchesItself | TouchesCable | Break | Cut
+        );
         let own = matches!(
             self,
             AxialDamping | BendingDamping | RestShape | Torsion | Stranded | HookeLaw | RopeLaw | CurveLaw
@@ -202,7 +211,7 @@ impl Feature {
     pub fn rests(self) -> bool {
         let moves = matches!(
             self,
-            Prescribed | KinematicBody | TurningPath | TouchesMoving | Current | ForceDensity | LoadHistory
+            Prescribed | KinematicBody | TurningPath | TouchesMoving | Current | Wave | ForceDensity | LoadHistory
         );
         let falls = matches!(self, TouchesLoose | Cut | Break);
         !(moves || falls || self.is_reel())

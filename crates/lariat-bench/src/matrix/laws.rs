@@ -152,7 +152,7 @@ pub fn together(features: &[Feature], plan: Plan) -> Result<Vec<Check>, Ended> {
     let difference = if same { apart(&end, &fine) } else { (scene.centre() - finer.centre()).norm() } / moved;
     let finer = Check::at_most(FINER_RUN, difference, FINE, "the same scene at dt/8");
     if same && !finer.holds() {
-        checks.push(Check::at_most(STEPS_TOLD, scene.steps as f64, f64::INFINITY, "told, not judged"));
+        checks.push(Check::at_most(STEPS_TOLD, scene.told_of_steps() as f64, f64::INFINITY, "told, not judged"));
         checks.extend(limits::measure(&draft, plan, &fine, moved)?);
     }
     checks.push(finer);

@@ -8,7 +8,9 @@ pub fn reason(pair: Pair) -> Option<&'static str> {
     let winds = |feature: &Feature| feature.is_reel() || matches!(feature, Feature::Sheave | Feature::HeavySheave);
     match pair {
         _ if both(&[Feature::HookeLaw, Feature::RopeLaw, Feature::CurveLaw]) => Some("a cable has one axial law"),
-        _ if both(&[Feature::Drag, Feature::Current, Feature::Water]) => Some("a cable is in one fluid"),
+        _ if both(&[Feature::Drag, Feature::Current, Feature::Water, Feature::AddedMass, Feature::Wave]) => {
+            Some("a cable is in one fluid")
+        }
         _ if both(&[Feature::Game, Feature::Engineering, Feature::Adaptive]) => Some("a cable has one integrator"),
         _ if pair.has(Feature::ErrorTarget)
             && both(&[Feature::ErrorTarget, Feature::Game, Feature::Engineering, Feature::Adaptive]) =>

@@ -86,17 +86,7 @@ pub fn run(pair: Pair) -> Row {
     }
     let measured = catch_unwind(AssertUnwindSafe(|| measure(pair)));
     let (outcome, checks) = match measured {
-        Ok(Ok(checks)) if checks.is_empty() => (Outcome::Unmeasured, checks),
-        Ok(Ok(checks)) => {
-            let failed: Vec<Check> = checks.iter().filter(|check| !check.holds()).cloned().collect();
-            let told = checks.iter().any(|check| check.quantity == STEPS_TOLD && check.value > 0.0);
-            let outcome = match failed.iter().all(|check| check.quantity == FINER_RUN) {
-                _ if failed.is_empty() => Outcome::Right,
-                true if told => Outcome::Told(failed),
-                _ => Outcome::Wrong(failed),
-            };
-            (outcome, checks)
-        }
+        Ok(Ok(checks)) => (judged(&checks), checks),
         Ok(Err(Ended::Refused(text))) => (Outcome::Refused(text), Vec::new()),
         Ok(Err(Ended::Failed(time, text))) => (Outcome::Failed(time, text), Vec::new()),
         Err(panic) => {
@@ -106,6 +96,18 @@ pub fn run(pair: Pair) -> Row {
         }
     };
     Row { pair, outcome, checks }
+}
+
+/// Returns how a run ended by what was measured of it.
+pub fn judged(checks: &[Check]) -> Outcome {
+    let failed: Vec<Check> = checks.iter().filter(|check| !check.holds()).cloned().collect();
+    let told = checks.iter().any(|check| check.quantity == STEPS_TOLD && check.value > 0.0);
+    match failed.iter().all(|check| check.quantity == FINER_RUN) {
+        _ if checks.is_empty() => Outcome::Unmeasured,
+        _ if failed.is_empty() => Outcome::Right,
+        true if told => Outcome::Told(failed),
+        _ => Outcome::Wrong(failed),
+    }
 }
 
 /// Runs a pair by all laws that apply to it.

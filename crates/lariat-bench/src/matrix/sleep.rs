@@ -10,7 +10,7 @@
 //!
 //! Asking whether the cable is awake: a cable that woke too late would pass.
 
-use super::draft::{Draft, Hold, Kind, LENGTH, Wound, varying, water};
+use super::draft::{Draft, Hold, Kind, LENGTH, Wound, varying, water, waving};
 use super::feature::Feature;
 use super::laws::{Ended, STEP, apart};
 use super::scene::{Fault, Scene};
@@ -55,10 +55,13 @@ fn draft(feature: Feature) -> Draft {
         let flow = Flow::uniform(Vector3::new(0.5, 0.0, 0.5)).with_history([[CHANGE, 0.0], [CHANGE + 0.1, 1.0]]);
         draft.effects.drag.iter_mut().for_each(|drag| drag.flow = flow.clone());
     }
-    if feature == Feature::Water {
+    if feature.is_water() {
         // at rest until it changes
-        draft.water.iter_mut().for_each(|water| water.flow.velocity = Vector3::zeros());
-        draft.effects.drag.iter_mut().for_each(|drag| drag.flow.velocity = Vector3::zeros());
+        let flows = draft.water.iter_mut().map(|water| &mut water.flow);
+        for flow in flows.chain(draft.effects.drag.iter_mut().map(|drag| &mut drag.flow)) {
+            flow.velocity = Vector3::zeros();
+            flow.surface.iter_mut().for_each(|surface| surface.wave = None);
+        }
     }
     if feature == Feature::PointLoad {
         draft.loads = vec![PointLoad { start: CHANGE, ..PointLoad::force(0.8, Vector3::new(0.0, 0.0, 1.0)) }];
@@ -110,9 +113,9 @@ fn change(scene: &mut Scene, feature: Feature) -> Result<(), Fault> {
             cable.set_buoyancy(Some(buoyancy))
         }),
         Feature::RestShape => cable(scene, &|cable| cable.set_rest_shape(Some(RestShape::stretched(0.97)))),
-        Feature::Water => {
-            let flowing = water();
-            scene.set.water_mut().ok_or("no water")?.set_water(flowing)?;
+        feature if feature.is_water() => {
+            let moving = if feature == Feature::Wave { waving() } else { water() };
+            scene.set.water_mut().ok_or("no water")?.set_water(moving)?;
             Ok(())
         }
         Feature::GravityScale => cable(scene, &|cable| cable.set_gravity_scale(Some(GravityScale(-2.0)))),

@@ -102,8 +102,9 @@ impl Scene {
         let (first, last) =
             if draft.sheave { self.add_over_sheave(&draft, elements)? } else { self.add_one(&draft, elements)? };
         let ends = [(first, At::Start, 0.0), (last, At::End, 1.0)];
-        for ((cable, at, share), hold) in ends.into_iter().zip([draft.start, draft.end]) {
-            self.hold(&draft, cable, (at, share), hold)?;
+        for (k, hold) in [draft.start, draft.end].into_iter().enumerate() {
+            let (cable, at, share) = ends[k];
+            self.hold(&draft, cable, (at, share), (hold, draft.clamps[k]))?;
         }
         if let Some(kind) = draft.middle {
             let body = self.add_body(&draft, kind, 0.75)?;
@@ -207,11 +208,17 @@ impl Scene {
         Ok(self.set.insert(builder.name(format!("{name} {count}")).build()?))
     }
 
-    /// Holds an end of a cable.
-    fn hold(&mut self, draft: &Draft, cable: CableHandle, (at, share): (At, f64), hold: Hold) -> Result<(), Fault> {
+    /// Holds an end of a cable, and its direction if it is clamped.
+    fn hold(
+        &mut self,
+        draft: &Draft,
+        cable: CableHandle,
+        (at, share): (At, f64),
+        (hold, clamps): (Hold, bool),
+    ) -> Result<(), Fault> {
         match hold {
             Hold::Free => {}
-            Hold::World if !draft.clamps => self.set.get_mut(cable)?.fix(at)?,
+            Hold::World if !clamps => self.set.get_mut(cable)?.fix(at)?,
             Hold::World | Hold::Clamp => self.set.get_mut(cable)?.clamp(at)?,
             Hold::Motion => {
                 let x = draft.point(share);
@@ -223,7 +230,7 @@ impl Scene {
             }
             Hold::Body(kind) => {
                 let body = self.add_body(draft, kind, share)?;
-                let kind = if draft.clamps { AttachmentKind::Clamp } else { AttachmentKind::Ball };
+                let kind = if clamps { AttachmentKind::Clamp } else { AttachmentKind::Ball };
                 self.set.attach_here(&self.physics, cable, at, body, kind)?;
             }
         }
@@ -262,7 +269,7 @@ impl Scene {
             if self.set.water().is_none() {
                 self.set.set_water(BodiesInWater::new(water)?);
             }
-            let immersed = Immersed::with_drag_area([0.01; 3]).with_added_mass(0.5);
+            let immersed = Immersed::with_drag_area([0.01; 3]).with_added_mass_along(draft.added_mass);
             let bodies = self.set.water_mut().ok_or("no water")?;
             bodies.insert(&mut self.physics, body, immersed)?;
         }

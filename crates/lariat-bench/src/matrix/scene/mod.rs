@@ -18,6 +18,19 @@ pub type Fault = Box<dyn std::error::Error + Send + Sync>;
 /// Bodies that the coupling adds are heavier than this, in kg, and belong to no scene.
 const HEAVIEST_BODY: f64 = 1e8;
 
+/// Whether a warning tells that the motion is off in steps of this length.
+fn is_of_steps(warning: &Warning) -> bool {
+    matches!(
+        warning,
+        Warning::LongSteps { .. }
+            | Warning::NotResolved { .. }
+            | Warning::EnergyLost { .. }
+            | Warning::CutShort { .. }
+            | Warning::UnsolvedSteps { .. }
+            | Warning::FrictionLags { .. }
+    )
+}
+
 /// A world with cables.
 #[derive(Default)]
 pub struct Scene {
@@ -29,8 +42,8 @@ pub struct Scene {
     pub time: f64,
     /// Events so far, as far as they tell of energy that was made.
     pub made: Vec<String>,
-    /// Warnings so far that tell that the motion is off in steps of this length.
-    pub steps: usize,
+    /// See [`told_of_steps`](Self::told_of_steps).
+    steps: usize,
     /// Cables that are cut, and when in s.
     cuts: Vec<(CableHandle, f64)>,
     /// When the force density of the ropes begins, in s, if they have one.
@@ -79,16 +92,22 @@ impl Scene {
             let Event::Warning { warning, .. } = &event else { continue };
             match warning {
                 Warning::EnergyMade { .. } => self.made.push(warning.to_string()),
-                Warning::LongSteps { .. }
-                | Warning::NotResolved { .. }
-                | Warning::EnergyLost { .. }
-                | Warning::CutShort { .. }
-                | Warning::UnsolvedSteps { .. }
-                | Warning::FrictionLags { .. } => self.steps += 1,
+                warning if is_of_steps(warning) => self.steps += 1,
                 _ => {}
             }
         }
         Ok(())
+    }
+
+    /// Returns how many warnings, so far and at the end of a run, tell that the motion is off in
+    /// steps of this length.
+    pub fn told_of_steps(&self) -> usize {
+        let now = self.set.warnings(&self.physics);
+        let of_steps = |told: &&lariat_rapier::Warning| match told {
+            lariat_rapier::Warning::Cable { warning, .. } => is_of_steps(warning),
+            _ => false,
+        };
+        self.steps + now.iter().filter(of_steps).count()
     }
 
     /// Returns the first cable that is no other one across it.
@@ -122,7 +141,9 @@ impl Scene {
                     let to = body.translation() + to_rapier([0.02, 0.0, 0.01]);
                     body.set_translation(to, true);
                 }
-                Feature::DynamicBody | Feature::ImpulseJoint | Feature::MultibodyJoint if body.is_dynamic() => {
+                Feature::DynamicBody | Feature::ClampedBody | Feature::ImpulseJoint | Feature::MultibodyJoint
+                    if body.is_dynamic() =>
+                {
                     body.add_force(to_rapier([0.5, 5.0, 0.0]), true);
                 }
                 Feature::TouchesLoose if body.is_dynamic() && loose => {
