@@ -83,6 +83,8 @@ pub(super) fn nodes(
     elements: usize,
     grading: Option<&Grading>,
 ) -> Result<Vec<f64>, Error> {
+    let is_in_range = (elements as f64 * length).is_finite();
+    require("length (m)", length, is_in_range, "times the number of elements a finite number")?;
     put_in_order(breaks, length);
     let last = breaks.len() - 1;
     breaks[last] = length;

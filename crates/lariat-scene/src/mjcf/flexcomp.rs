@@ -2,7 +2,7 @@
 
 use super::Importer;
 use super::cable::{Cable, Hold, Names};
-use super::composite::in_world;
+use super::composite::{VERTICES, in_world};
 use super::surface::Surface;
 use super::tree::Element;
 use crate::error::Error;
@@ -18,9 +18,10 @@ impl Importer {
             "grid" => {
                 let count = node.number("count")?.unwrap_or(10.0);
                 let spacing = node.number("spacing")?.unwrap_or(0.02);
-                if !(2.0..=1e6).contains(&count) || count.fract() != 0.0 || spacing <= 0.0 {
+                if !VERTICES.contains(&count) || count.fract() != 0.0 || spacing <= 0.0 {
                     return Err(node.wrong(format!(
-                        "count = {count}, spacing = {spacing}: needs 2 vertices or more, and a spacing > 0"
+                        "count = {count}, spacing = {spacing}: needs 2 to {} vertices, and a spacing > 0",
+                        VERTICES.end()
                     )));
                 }
                 // the grid is centred
