@@ -25,7 +25,7 @@ pub enum Interface {
 
 /// By the name in Rust, without arguments, those of scenes and of Python: `{0}` is the first
 /// argument.
-const NAMES: [(&str, [&str; 2]); 14] = [
+const NAMES: [(&str, [&str; 2]); 16] = [
     ("elements", ["elements = {0}", "elements={0}"]),
     (
         "elements.finest",
@@ -42,6 +42,8 @@ const NAMES: [(&str, [&str; 2]); 14] = [
     ("CableBuilder::damped_as", ["damping = { rope = \"wire-rope\" }", "Cable(damped_as=...)"]),
     ("Strength", ["break", "set_strength"]),
     ("CableSet::add_kink", ["kinks", "World.add_kink"]),
+    ("CableSet::move_bodies", ["a motion without jumps", "World.move_bodies"]),
+    ("equilibrium_among", ["initial = \"equilibrium\"", "World.equilibrium"]),
     ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)"]),
 ];
 

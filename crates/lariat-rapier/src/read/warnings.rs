@@ -48,7 +48,7 @@ pub enum Warning {
         if *.own {
             " of a body that it is attached to: contact holds it there, squeezed, and with any force until it is out"
         } else {
-            ": contact does not push it out, and without contact it passes through"
+            ": contact does not push it out, and without contact it passes through; where it is fastened in there, attach it to that body"
         }
     )]
     InCollider {
@@ -69,7 +69,7 @@ pub enum Warning {
     /// An attachment whose two sides are apart.
     #[error(
         "cable {name:?}: at {:.4} s it is {:.1e} m off the anchor of an attachment{}", gap.time, gap.gap,
-        if gap.closed { ": take shorter steps, or find what holds the body back" } else { ", and they never met: start them together, or wait" }
+        if gap.closed { ": take shorter steps, or find what holds the body back; what is moved at once is moved with its cables by `CableSet::move_bodies`" } else { ", and they never met: start them together, or wait" }
     )]
     OpenGap {
         /// The attachment.

@@ -1,6 +1,7 @@
 //! What newcomers write in Rust, and the first line that they get: it says the cause.
 
 use super::common::{add_cube, run};
+use lariat_rapier::lariat_ancf::warning::Interface;
 use lariat_rapier::lariat_ancf::{
     At, AxialLaw, Cable, CableBuilder, Contact, Damping, Drag, Effects, Flow, Integrator, Method, PointLoad, Reel,
     Rule, Section, StepControl, Vector3,
@@ -235,4 +236,20 @@ fn the_first_line_says_the_cause() {
     assert!(rope.is_ok());
     run(&mut yard.world, &mut yard.set, 60);
     assert!(yard.set.warnings(&yard.world).is_empty(), "{:?}", yard.set.warnings(&yard.world));
+}
+
+/// What a warning names in backticks has its words in scenes and in Python.
+///
+/// *Source.* The contract of `Interface::text`; a world of Rapier has its `length_unit` in every interface.
+#[test]
+fn names_in_warnings_are_those_of_each_interface() {
+    let source = include_str!("../../src/read/warnings.rs");
+    let code = source.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    let names: Vec<String> = code.split('`').skip(1).step_by(2).map(|name| format!("`{name}`")).collect();
+    assert!(names.len() > 2, "{names:?}");
+    for name in names.iter().filter(|name| *name != "`length_unit`") {
+        for interface in [Interface::Scene, Interface::Python] {
+            assert_ne!(interface.text(name), *name, "{interface:?}");
+        }
+    }
 }
