@@ -89,6 +89,29 @@ fn a_rope_over_a_sheave_is_atwoods_machine_and_stays_one_cable() {
     }
 }
 
+/// Loads that do not balance over a sheave have no equilibrium, and the error says what pulls; with friction enough they have one.
+///
+/// *Source.* Equilibrium of the wheel; the capstan equation, half a turn: equal to e^(mu pi).
+#[test]
+fn statics_of_unequal_loads_over_a_sheave_name_their_pulls() {
+    for (radius, [left, right]) in [(0.1, [2.0, 3.0]), (0.25, [30.0, 24.0]), (0.05, [2.0, 2.02])] {
+        for friction in [0.0, 0.2] {
+            let text = atwood(radius, [left, right], "", "")
+                .replace("duration = 0.8", "duration = 0.8\ninitial = \"equilibrium\"");
+            let text = text.replace("[[sheave]]\n", &format!("[[sheave]]\nfriction = {friction:?}\n"));
+            let scene = Scene::parse("scene.toml", &text, &[], Purpose::Run).unwrap();
+            let failed = run::collect(&scene, Purpose::Run, &mut Options::default()).unwrap().failed;
+            let ratio = right.max(left) / right.min(left);
+            if ratio < (friction * std::f64::consts::PI).exp() {
+                assert!(failed.is_none(), "{radius} {friction}: {failed:?}");
+                continue;
+            }
+            let error = failed.unwrap().to_string();
+            assert!(error.contains("runs over a sheave: its parts pull"), "{radius} {friction}: {error}");
+        }
+    }
+}
+
 /// With friction the tensions at the sheave differ by exp(mu theta); loads that differ by less stay at rest.
 ///
 /// *Source.* Euler's capstan of a running belt, `(T_b - rho v^2)/(T_a - rho v^2) = exp(mu pi)`, less the inertia of the rope on the wheel.

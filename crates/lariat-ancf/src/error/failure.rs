@@ -147,6 +147,17 @@ pub enum EquilibriumFailure {
         /// Largest force of the reel in N.
         largest: f64,
     },
+    /// A cable runs over a sheave that its parts pull unequally, until all of it is on one side.
+    #[error(
+        "the cable runs over a sheave: its parts pull {:.3e} N and {:.3e} N there, which holds a difference of {largest:.3e} N at most; \
+         give it friction, loads that balance, or begin without equilibrium", pulls[0], pulls[1]
+    )]
+    Unbalanced {
+        /// Pulls in N of the parts before and after the sheave.
+        pulls: [f64; 2],
+        /// Largest difference in N that the friction of the sheave holds.
+        largest: f64,
+    },
     /// The iteration did not converge.
     #[error("the iteration did not converge")]
     NotConverged,
@@ -159,8 +170,8 @@ impl EquilibriumFailure {
     /// Returns whether it tells of a shape that was found, or that there is none: no other search
     /// helps.
     pub(crate) fn is_final(&self) -> bool {
-        use EquilibriumFailure::{NotHeld, Slips, Snags, Touches};
-        matches!(self, NotHeld | Touches { .. } | Snags { .. } | Slips { .. })
+        use EquilibriumFailure::{NotHeld, Slips, Snags, Touches, Unbalanced};
+        matches!(self, NotHeld | Touches { .. } | Snags { .. } | Slips { .. } | Unbalanced { .. })
     }
 }
 

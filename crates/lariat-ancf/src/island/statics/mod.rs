@@ -220,7 +220,7 @@ fn settle(
             residual: search.residual,
             iterations,
         };
-        let stable = outcome.map_err(|failure| failed(cables[0], failure))?;
+        let stable = outcome.map_err(|failure| failed(cables[0], passing.explain(failure)))?;
         twists::follow(cables, &search.layout, &search.q);
         for (cable, part) in cables.iter_mut().zip(&search.layout.parts) {
             cable.snapshot.state.q.copy_from_slice(&search.q[part.range()]);
@@ -244,7 +244,7 @@ fn settle(
                 };
             }
             Balance::Moved => {}
-            Balance::Never => return Err(failed(cables[0], EquilibriumFailure::NotConverged)),
+            Balance::Never(failure) => return Err(failed(cables[0], failure)),
         }
     }
 }

@@ -28,7 +28,7 @@
 use super::super::pin::PinConstraint;
 use crate::cable::Cable;
 use crate::element::side::Side;
-use crate::error::Error;
+use crate::error::{EquilibriumFailure, Error};
 use crate::island::reel::Sheave;
 use crate::scales::statics::{MAX_PASSES, MOST_PASSED};
 use nalgebra::{DMatrix, DVector};
@@ -40,6 +40,8 @@ pub(super) struct Passing<'a> {
     slope: DMatrix<f64>,
     /// The last residuals in N, and the lengths in m that ran since.
     before: Option<(DVector<f64>, DVector<f64>)>,
+    /// What the pulls were when material last ran.
+    unbalanced: Option<EquilibriumFailure>,
     passes: usize,
 }
 
@@ -50,7 +52,7 @@ pub(super) enum Balance {
     /// Material ran over some: the equilibrium is another.
     Moved,
     /// They do not come to balance.
-    Never,
+    Never(EquilibriumFailure),
 }
 
 impl<'a> Passing<'a> {
@@ -59,7 +61,12 @@ impl<'a> Passing<'a> {
         let stiffness = |(cable, _): (usize, Side)| 1.0 / compliance(cable).sum::<f64>();
         let own = sheaves.iter().map(|sheave| -sheave.ends().map(stiffness).iter().sum::<f64>());
         let slope = DMatrix::from_diagonal(&DVector::from_iterator(sheaves.len(), own));
-        Passing { sheaves, slope, before: None, passes: 0 }
+        Passing { sheaves, slope, before: None, unbalanced: None, passes: 0 }
+    }
+
+    /// Returns why the next search failed: what had run over let it find nothing.
+    pub fn explain(&mut self, failure: EquilibriumFailure) -> EquilibriumFailure {
+        if failure.is_final() { failure } else { self.unbalanced.take().unwrap_or(failure) }
     }
 
     /// Lets material run over the sheaves of cables that are in equilibrium, up to residuals of
@@ -76,11 +83,16 @@ impl<'a> Passing<'a> {
         if self.sheaves.is_empty() {
             return Ok(Balance::Rest);
         }
-        let residuals = self.sheaves.iter().map(|sheave| residual(sheave, cables));
-        let residuals = DVector::from_iterator(self.sheaves.len(), residuals);
-        if residuals.amax() <= tolerance {
+        let pulls: Vec<Pulls> = self.sheaves.iter().map(|sheave| Pulls::of(sheave, cables)).collect();
+        let residuals = DVector::from_iterator(self.sheaves.len(), pulls.iter().map(Pulls::residual));
+        let worst = residuals.iamax();
+        if residuals[worst].abs() <= tolerance {
             return Ok(Balance::Rest);
         }
+        let Pulls { pulls, largest } = pulls[worst];
+        let unbalanced = EquilibriumFailure::Unbalanced { pulls, largest };
+        self.unbalanced = Some(unbalanced.clone());
+        let never = Balance::Never(unbalanced);
         if let Some((before, moved)) = &self.before {
             let missed = &residuals - before - &self.slope * moved;
             self.slope += missed * moved.transpose() / moved.norm_squared();
@@ -88,7 +100,7 @@ impl<'a> Passing<'a> {
         self.passes += 1;
         let solved = self.slope.clone().lu().solve(&-&residuals);
         let Some(mut lengths) = solved.filter(|x| self.passes < MAX_PASSES && x.iter().all(|x| x.is_finite())) else {
-            return Ok(Balance::Never);
+            return Ok(never);
         };
         for (sheave, length) in self.sheaves.iter().zip(lengths.iter_mut()) {
             let shortest =
@@ -100,7 +112,7 @@ impl<'a> Passing<'a> {
                 let own = &mut cables[cable];
                 let before = (own.nodes(), own.nodes_from_start());
                 if !own.feed_at_rest(side, share * length)? {
-                    return Ok(Balance::Never);
+                    return Ok(never);
                 }
                 follow(own, before, pins.iter_mut().filter(|pin| pin.cable == cable));
             }
@@ -110,12 +122,27 @@ impl<'a> Passing<'a> {
     }
 }
 
-/// Returns by how much in N the pulls of a sheave differ beyond its friction.
-fn residual(sheave: &Sheave, cables: &[&mut Cable]) -> f64 {
-    let ends = sheave.ends();
-    let [a, b] = ends.map(|(cable, side)| cables[cable].pull_at_rest(side));
-    let friction = sheave.friction_at_rest(ends.map(|(cable, side)| cables[cable].tangent_at_eye(side)), [a, b]);
-    (b - a) - (b - a).clamp(-friction, friction)
+/// What pulls at a sheave.
+struct Pulls {
+    /// In N, of the cables before and after it.
+    pulls: [f64; 2],
+    /// Largest difference in N that its friction holds.
+    largest: f64,
+}
+
+impl Pulls {
+    fn of(sheave: &Sheave, cables: &[&mut Cable]) -> Self {
+        let ends = sheave.ends();
+        let pulls = ends.map(|(cable, side)| cables[cable].pull_at_rest(side));
+        let tangents = ends.map(|(cable, side)| cables[cable].tangent_at_eye(side));
+        Pulls { pulls, largest: sheave.friction_at_rest(tangents, pulls) }
+    }
+
+    /// Returns by how much in N they differ beyond the friction.
+    fn residual(&self) -> f64 {
+        let difference = self.pulls[1] - self.pulls[0];
+        difference - difference.clamp(-self.largest, self.largest)
+    }
 }
 
 /// Moves pins to where their nodes are in a cable that had so many, and from the start.
