@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 /// removed with this component or its entity.
 #[derive(Component, Clone, Debug, Serialize, Deserialize)]
 #[require(BodyPose)]
-#[component(on_discard = discarded)]
+#[component(on_add = placed, on_discard = discarded)]
 pub struct Body {
     pub(crate) rigid: Rigid,
     pub(crate) colliders: Vec<ColliderBuilder>,
@@ -86,7 +86,8 @@ impl BodyHandle {
     }
 }
 
-/// Position, rotation and velocity of a body after the last host step.
+/// Position, rotation and velocity of a body after the last host step; before the first, where it
+/// is built.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyPose {
     /// Position of its origin in m.
@@ -159,6 +160,14 @@ impl Bodies<'_, '_> {
     /// Returns the entity of a body, for handles in results of Rapier's queries and events.
     pub fn entity(&self, handle: RigidBodyHandle) -> Option<Entity> {
         self.cables.links.bodies.get(&handle).copied()
+    }
+}
+
+/// Reads where a new body will be; one that was loaded with its pose keeps that.
+fn placed(mut world: DeferredWorld, context: HookContext) {
+    let Some(body) = world.get::<Body>(context.entity).map(|body| body.rigid.build()) else { return };
+    if let Some(mut pose) = world.get_mut::<BodyPose>(context.entity).filter(|pose| **pose == BodyPose::default()) {
+        pose.read(&body, true);
     }
 }
 

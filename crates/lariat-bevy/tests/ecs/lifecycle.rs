@@ -3,7 +3,8 @@
 use super::common::{bits, cable_of, cube, height, pin, soft, steps, world};
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
-use lariat_bevy::{At, Attachment, Bending, Cable, Cables, Diagnostics, Snapshot, install};
+use lariat_bevy::lariat_ancf::Vector3;
+use lariat_bevy::{At, Attachment, Bending, BodyPose, Cable, Cables, Diagnostics, Snapshot, install};
 use std::collections::BTreeMap;
 
 fn time(world: &World, cable: Entity) -> f64 {
@@ -27,6 +28,16 @@ fn a_cable_that_is_spawned_later_can_be_attached_to_the_same_body() {
     assert_eq!(world.resource::<Diagnostics>().failed_steps, 0);
     assert_eq!(time(&world, first), time(&world, second));
     assert!((time(&world, first) - 1.5).abs() < 1e-5);
+}
+
+/// *Source.* The description.
+#[test]
+fn a_body_has_its_pose_before_the_first_step() {
+    let mut world = world();
+    let load = world.spawn(cube(0.1, 5.0, [0.0, -1.1, 2.0]).velocity([0.0, 0.0, 3.0])).id();
+    let pose = *world.get::<BodyPose>(load).unwrap();
+    assert!((pose.position - Vector3::new(0.0, -1.1, 2.0)).norm() < 1e-6 && pose.velocity.z == 3.0, "{pose:?}");
+    assert_eq!(pose.between(0.0).0, pose.position);
 }
 
 #[test]
