@@ -9,7 +9,7 @@ use crate::integrate::{Fidelity, Integrator};
 use crate::rule::Rule;
 use crate::state::SegmentTwist;
 use crate::strength::{Break, Load};
-use crate::warning::{IslandChange, Warning};
+use crate::warning::{IslandChange, Level, Warning};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// What a coupling to an engine needs of a cable, and the user of a rope does not: nodes that
@@ -95,6 +95,11 @@ pub trait Coupling {
     /// supports, loads and effects acted on it, which its energy balance needs: neither a dynamic
     /// body nor another cable.
     fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning));
+
+    /// Leaves out of what is read of a watched cable, from now on, what only warnings beyond a
+    /// level need: how coarse mesh and steps are is most of it. [`warnings`](Cable::warnings) of
+    /// that are then of its present shape.
+    fn watch_up_to(&mut self, level: Level);
 
     /// Tells by how much (m) positions of what holds the cable were rounded in a host step of `h`
     /// (s); for those who hold cables by bodies in single precision. If the cable is straight, the
@@ -327,6 +332,10 @@ impl Coupling for Cable {
 
     fn note_host_step(&mut self, alone: bool, tell: impl FnMut(Warning)) {
         Cable::note_host_step(self, alone, tell)
+    }
+
+    fn watch_up_to(&mut self, level: Level) {
+        Cable::watch_up_to(self, level);
     }
 
     fn set_end_rounding(&mut self, rounding: f64, h: f64) {

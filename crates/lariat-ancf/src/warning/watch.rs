@@ -81,6 +81,22 @@ impl Watch {
         if before == Some(cable.time()) {
             return;
         }
+        if !self.leaves_coarse {
+            self.note_coarse(cable);
+        }
+        self.note_reels(cable, before.map_or(0.0, |before| cable.time() - before));
+        let (share, tension, stiffness) = cable.largest_strain();
+        if share > self.tension[0] {
+            self.tension = [share, tension, stiffness, cable.time()];
+        }
+        self.note_torsion(cable);
+        if cable.end_noise > self.noise.0 && cable.is_straight() {
+            self.noise = (cable.end_noise, cable.time());
+        }
+        self.contacts.note(cable);
+    }
+
+    fn note_coarse(&mut self, cable: &Cable) {
         let shape = cable.mesh_indicator();
         self.position = self.position.max(shape.position);
         self.turn = self.turn.max(shape.turn);
@@ -92,17 +108,7 @@ impl Watch {
             self.motion = self.motion.max(motion.error.min(shape.position));
             self.displacement = self.displacement.max(motion.displacement);
         }
-        self.note_reels(cable, before.map_or(0.0, |before| cable.time() - before));
-        let (share, tension, stiffness) = cable.largest_strain();
-        if share > self.tension[0] {
-            self.tension = [share, tension, stiffness, cable.time()];
-        }
-        self.note_torsion(cable);
-        if cable.end_noise > self.noise.0 && cable.is_straight() {
-            self.noise = (cable.end_noise, cable.time());
-        }
         self.steps.note(cable);
-        self.contacts.note(cable);
         self.layers.note(cable);
     }
 
@@ -327,7 +333,14 @@ impl Cable {
     /// [watched](Self::set_watched); else those of its present shape and tension. Warnings about
     /// section and material are always among them. They are sorted by [`Level`].
     pub fn warnings(&self) -> Vec<Warning> {
-        let noted = self.watch.as_deref().map(|watch| watch.warnings(self, None));
+        let noted = self.watch.as_deref().map(|watch| match watch.leaves_coarse {
+            false => watch.warnings(self, None),
+            true => {
+                let mut watch = watch.clone();
+                watch.note_coarse(self);
+                watch.warnings(self, None)
+            }
+        });
         let noted = noted.unwrap_or_else(|| {
             let mut watch = Watch::from_guess();
             watch.note(self);
@@ -355,6 +368,13 @@ impl Cable {
         let retardation = self.effects().damping.map_or(0.0, |damping| damping.axial);
         let force = rounding / compliance * (1.0 + retardation / h);
         self.end_noise = if force.is_finite() { force } else { 0.0 };
+    }
+
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn watch_up_to(&mut self, level: Level) {
+        if let Some(watch) = &mut self.watch {
+            watch.leaves_coarse = level < Level::Coarse;
+        }
     }
 
     /// Returns whether the cable is straight and taut.
@@ -388,7 +408,7 @@ impl Cable {
     /// [`warnings`](Self::warnings) are then those of all of them, and
     /// [`Diagnostics::warnings`](crate::Diagnostics::warnings) counts them. Displacements are
     /// counted from now. Default: not, which costs nothing; a `CableSet` of lariat-rapier watches
-    /// its cables.
+    /// its cables, and reads how coarse they are where it tells of that.
     pub fn set_watched(&mut self, watched: bool) {
         self.watch = watched.then(|| {
             let mut watch = Watch::new(self);

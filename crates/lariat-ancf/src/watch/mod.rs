@@ -40,6 +40,9 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Watch {
+    /// Whether it is not read how coarse mesh and steps are.
+    #[serde(default)]
+    pub(crate) leaves_coarse: bool,
     /// Positions that displacements are counted from; `None` if they are a guess of the shape.
     pub(crate) start: Option<Vec<f64>>,
     /// Estimate of the error of position in m.

@@ -15,7 +15,9 @@ use crate::table::{Cell, Format, Table, hidden, shown};
 use cpu_time::ProcessTime;
 use fearless_simd::Level;
 use lariat_ancf::coupling::{Coupling, Linearisation};
-use lariat_ancf::{At, Cable, Effects, Fidelity, Integrator, Method, Rule, Section as CrossSection, Vector3};
+use lariat_ancf::{
+    At, Cable, Effects, Fidelity, Integrator, Level as Told, Method, Rule, Section as CrossSection, Vector3,
+};
 use std::hint::black_box;
 
 /// Step in s.
@@ -123,13 +125,15 @@ fn table(name: &'static str, first: &'static str, rows: Vec<Vec<Cell>>) -> Table
 }
 
 /// Measures a host step of 1/60 s in fidelity game, of a cable that nobody watches and of one that [`CableSet`](lariat_rapier::CableSet)
-/// watches.
+/// watches, without and with what is coarse.
 fn watching(options: &Options) -> Result<Table, Error> {
     let mut rows = Vec::new();
-    for (name, watched) in [("not watched", false), ("watched", true)] {
+    let levels = [("not watched", None), ("watched", Some(Told::Wrong)), ("watched, coarse", Some(Told::Coarse))];
+    for (name, level) in levels {
         let mut cable = cable("projected-3", Effects::default())?;
         cable.set_integrator(cable.integrator_for(Fidelity::Game))?;
-        cable.set_watched(watched);
+        cable.set_watched(level.is_some());
+        level.into_iter().for_each(|level| cable.watch_up_to(level));
         cable.step(1.0 / 60.0)?;
         let timing = time(options, &mut cable, |cable| {
             cable.step(black_box(1.0 / 60.0))?;

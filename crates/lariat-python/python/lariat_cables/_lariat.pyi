@@ -319,7 +319,8 @@ class Cable:
         OutOfRangeError, ShapeError, AmbiguousPlaceError."""
 
     def warnings(self) -> list[str]:
-        """Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps."""
+        """Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps; what is beyond the ``warn_level`` of its
+        world, of its present shape."""
 
     def peak_tension(self) -> tuple[float, float]:
         """Returns the arc length in m of the largest tension, and that tension in N."""

@@ -167,7 +167,8 @@ impl Cable {
         result(py, "Samples", values)
     }
 
-    /// Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps.
+    /// Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps;
+    /// what is beyond the ``warn_level`` of its world, of its present shape.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         self.read(py, |cable| {
             let warnings = cable.warnings();

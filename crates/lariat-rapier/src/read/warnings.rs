@@ -350,10 +350,12 @@ fn far_anchor(
 }
 
 /// Logs, before a host step, what is wrong with how cables and attachments begin that have not been
-/// stepped: where they lie and how they move is what the user gave.
-pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld) {
+/// stepped: where they lie and how they move is what the user gave. Chooses what is read of cables
+/// by the level that is `asked` for.
+pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, asked: Option<Level>) {
     for index in 0..contents.cables.len() {
         let Some(slot) = contents.cables.get_mut(index).filter(|slot| slot.cable.is_watched()) else { continue };
+        slot.cable.watch_up_to(asked.unwrap_or_else(|| slot.cable.warn_level()));
         if core::mem::replace(&mut slot.introduced, true) {
             continue;
         }

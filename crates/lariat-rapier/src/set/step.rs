@@ -56,7 +56,7 @@ impl CableSet {
         slack::draw_all_outside(&mut self.contents, world)?;
         let host = step::begin(&mut self.stepper, &mut self.contents, world, &self.settings)?;
         if host.is_unfinished() {
-            warnings::introduce(&mut self.contents, world);
+            warnings::introduce(&mut self.contents, world, self.settings.warn_level);
         }
         Ok(host)
     }

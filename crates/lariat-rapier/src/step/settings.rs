@@ -31,7 +31,8 @@ pub struct Settings {
     pub watch: bool,
     /// Up to which level warnings are told. Default: of each cable up to
     /// [`Cable::warn_level`](lariat_ancf::Cable::warn_level), which leaves out what is coarse with
-    /// the steps of fidelity game.
+    /// the steps of fidelity game. What only warnings beyond it need is not read: those that a
+    /// program asks a cable for are then of its present shape.
     #[serde(default)]
     pub warn_level: Option<Level>,
     /// The largest amount of work in a host step; `None` for no limit. Default: [that of

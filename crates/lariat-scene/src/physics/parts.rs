@@ -3,7 +3,7 @@
 use super::{Physics, Script};
 use crate::error::Error;
 use crate::scene::Scene;
-use lariat_ancf::Cable;
+use lariat_ancf::{Cable, Level};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
@@ -94,6 +94,8 @@ impl Physics {
         world.integration_parameters.dt = scene.dt as Real;
         cables.settings.rapier_steps = rapier_steps;
         cables.settings.watch = true;
+        // the run chooses what it tells of
+        cables.settings.warn_level = Some(Level::Coarse);
         for handle in &handles {
             if let Ok(cable) = cables.get_mut(*handle) {
                 cable.set_watched(true);
