@@ -244,7 +244,7 @@ fn settle(
                 };
             }
             Balance::Moved => {}
-            Balance::Never(failure) => return Err(failed(cables[0], failure)),
+            Balance::Never => return Err(failed(cables[0], passing.explain(EquilibriumFailure::NotConverged))),
         }
     }
 }

@@ -52,7 +52,7 @@ pub(super) enum Balance {
     /// Material ran over some: the equilibrium is another.
     Moved,
     /// They do not come to balance.
-    Never(EquilibriumFailure),
+    Never,
 }
 
 impl<'a> Passing<'a> {
@@ -64,7 +64,7 @@ impl<'a> Passing<'a> {
         Passing { sheaves, slope, before: None, unbalanced: None, passes: 0 }
     }
 
-    /// Returns why the next search failed: what had run over let it find nothing.
+    /// Returns why a search failed after material ran over: what had run let it find nothing.
     pub fn explain(&mut self, failure: EquilibriumFailure) -> EquilibriumFailure {
         if failure.is_final() { failure } else { self.unbalanced.take().unwrap_or(failure) }
     }
@@ -90,9 +90,7 @@ impl<'a> Passing<'a> {
             return Ok(Balance::Rest);
         }
         let Pulls { pulls, largest } = pulls[worst];
-        let unbalanced = EquilibriumFailure::Unbalanced { pulls, largest };
-        self.unbalanced = Some(unbalanced.clone());
-        let never = Balance::Never(unbalanced);
+        self.unbalanced = Some(EquilibriumFailure::Unbalanced { pulls, largest });
         if let Some((before, moved)) = &self.before {
             let missed = &residuals - before - &self.slope * moved;
             self.slope += missed * moved.transpose() / moved.norm_squared();
@@ -100,7 +98,7 @@ impl<'a> Passing<'a> {
         self.passes += 1;
         let solved = self.slope.clone().lu().solve(&-&residuals);
         let Some(mut lengths) = solved.filter(|x| self.passes < MAX_PASSES && x.iter().all(|x| x.is_finite())) else {
-            return Ok(never);
+            return Ok(Balance::Never);
         };
         for (sheave, length) in self.sheaves.iter().zip(lengths.iter_mut()) {
             let shortest =
@@ -112,7 +110,7 @@ impl<'a> Passing<'a> {
                 let own = &mut cables[cable];
                 let before = (own.nodes(), own.nodes_from_start());
                 if !own.feed_at_rest(side, share * length)? {
-                    return Ok(never);
+                    return Ok(Balance::Never);
                 }
                 follow(own, before, pins.iter_mut().filter(|pin| pin.cable == cable));
             }
