@@ -6,8 +6,9 @@
 //! 2. Up to eight, up to four for the last condition: with the same factors where energy is not
 //!    made and they bring the impulses nearer to balance, else with a new tangent.
 //! 3. Velocities relative to rigid motion are scaled down, if that takes at most a hundredth of
-//!    their energy, half in the last division; momenta stay. A residual that makes more is far from
-//!    a solution: the axial law of a rope that whips took 0.09 of all energy in a step.
+//!    their energy, half in the last division and where a nonsmooth term acts, whose impulses are
+//!    balanced to a tenth by then; momenta stay. A residual that makes more is far from a solution:
+//!    the axial law of a rope that whips took 0.09 of all energy in a step.
 //! 4. Four steps of a quarter, each by the same means; the one after a quarter that had to be
 //!    divided in turn is divided at once.
 //!
@@ -326,7 +327,7 @@ pub(super) fn step<S: DiscreteGradientSystem>(
         let may_rescale = may_end && is_certain(&balance) && balance.surplus() > 0.0 && may_rescale();
         let largest_share = match () {
             () if reduced => 1.0,
-            () if shortest => SHARE_OF_HALF_THE_ENERGY,
+            () if shortest || balance.nonsmooth => SHARE_OF_HALF_THE_ENERGY,
             () => SHARE_OF_A_HUNDREDTH_OF_THE_ENERGY,
         };
         if may_rescale && system.rescale(&mut balance, largest_share) {
