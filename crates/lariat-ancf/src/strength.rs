@@ -298,4 +298,8 @@ pub struct Break {
     /// Change of the total energy in J by the edit itself: zero at a node, else what a node placed
     /// there [adds](crate::coupling::Coupling::inserted_energy).
     pub inserted_energy: f64,
+    /// Breaks by loads, one after another, that made the parts: 1 of a cable that was whole, 0 of a
+    /// cut of one.
+    #[serde(default)]
+    pub breaks: u32,
 }

@@ -268,7 +268,7 @@ fn a_damped_rope_has_the_derivatives_of_its_force() {
     }
 }
 
-/// Damping of a rope takes energy in every step, exactly, and the energy law closes with it: thrown, snapping taut and going slack, at any step.
+/// Damping of a rope takes energy in every step, exactly, and the energy law closes with it to what a step may make: thrown, snapping taut and going slack, at any step.
 ///
 /// *Source.* The law: energy now is energy before less what damping and the step itself took.
 #[test]
@@ -289,15 +289,12 @@ fn damping_of_a_rope_takes_energy_in_every_step() {
                 let (now, damping) = (total(&rope), rope.effect_work().damping);
                 assert!(damping <= taken, "{law:?} {time} {h}: {:e} J", damping - taken);
                 let made = now - before - work - (damping - taken);
-                most = most.max(made / size);
+                // a step is accepted that makes a hundredth of what damping takes in it
+                most = most.max((made - 0.01 * (taken - damping)) / size);
                 size = size.max(now.abs());
                 (before, taken) = (now, damping);
             }
-            let d = rope.diagnostics();
-            println!(
-                "{law:?} {time} {h}: damping took {taken:.3} J, made {most:.1e}, {} iterations",
-                d.newton_iterations
-            );
+            assert!(most < 1e-9, "{law:?} {time} {h}: made {most:e}");
         }
     }
 }

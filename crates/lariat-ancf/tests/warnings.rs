@@ -190,14 +190,17 @@ fn the_default_law_is_told_where_it_is_off_hookes() {
 /// A length in percent, damping in percent, and elements that are thicker than long are told by the cable itself.
 #[test]
 fn measures_that_were_not_meant_are_told() {
-    let told = |length: f64, elements: usize, axial: f64| {
+    let damped = |length: f64, elements: usize, damping: Damping| {
         let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * 2.0]).length(length).elements(elements);
         let line = line.section(Section::round(0.02, 1e8, 1000.0).unwrap()).fix(At::Start).fix(At::End);
-        line.damping(Damping { axial, bending: 0.0 }).build().unwrap().warnings()
+        line.damping(damping).build().unwrap().warnings()
     };
+    let told = |length, elements, axial| damped(length, elements, Damping { axial, bending: 0.0 });
     assert_eq!(told(2.0, 90, 0.9), []);
     assert!(matches!(&told(2.0, 110, 0.9)[..], [Warning::ThickElements { .. }]));
     assert!(matches!(&told(2.0, 10, 2.0)[..], [Warning::SlowStretch { axial_s: 2.0, .. }]));
+    let bending = damped(2.0, 10, Damping { axial: 0.0, bending: 10.0 });
+    assert!(matches!(&bending[..], [Warning::SlowBending { bending_s: 10.0, .. }]), "{bending:?}");
     let slack = |warning: &Warning| matches!(warning, Warning::MuchSlack { drawn_m: 2.0, .. });
     assert!(told(102.0, 40, 0.1).iter().any(slack) && !told(5.9, 40, 0.1).iter().any(slack));
 }
@@ -374,6 +377,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::GreenStrain { cable: cable(), time_s, tension_n: 1.0, axial_stiffness_n: 40.0 },
         Warning::MuchSlack { cable: cable(), length_m: 4.0, drawn_m: 1.0 },
         Warning::SlowStretch { cable: cable(), axial_s: 2.0 },
+        Warning::SlowBending { cable: cable(), bending_s: 2.0 },
         Warning::ThickElements { cable: cable(), element_m: 0.01, diameter_m: 0.02 },
         Warning::ThickDrag { cable: cable(), diameter_m: 12.0 },
         Warning::FastFlow { cable: cable(), speed_m_s: 30.0, density_kg_m3: 1025.0, is_liquid: true },

@@ -103,7 +103,7 @@ impl Cable {
         let Load { cause, tension, damping, strain, time, .. } = load;
         let breaks = 1 + self.snapshot.load.breaks();
         let (mut rest, how) =
-            self.part(arc_length, |cable| Break { cause, tension, damping, strain, time, ..cable })?;
+            self.part(arc_length, |cable| Break { cause, tension, damping, strain, time, breaks, ..cable })?;
         [self, &mut rest].into_iter().for_each(|part| part.recoil(breaks));
         Ok(Some((rest, how)))
     }
@@ -209,6 +209,7 @@ impl Cable {
             time: self.time(),
             strain_energy: energy.axial + energy.bending + energy.torsion,
             inserted_energy: self.inserted_energy() - inserted,
+            breaks: self.snapshot.load.breaks(),
         };
         Ok((rest, told(cut)))
     }

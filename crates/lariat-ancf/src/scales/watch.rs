@@ -57,9 +57,9 @@ pub(crate) const STRAIN_ROUNDS: usize = 5;
 /// percent makes 50 times the span.
 pub(crate) const SLACK: f64 = 3.0;
 
-/// Largest axial damping time in s. Derived: those of ropes are below 0.1 s, and one in percent of
-/// critical is above it.
-pub(crate) const SLOWEST_STRETCH: f64 = 1.0;
+/// Largest time in s of damping, axial and in bending. Derived: those of ropes are below 0.1 s, and
+/// one in percent of critical is above it.
+pub(crate) const SLOWEST_STRAIN: f64 = 1.0;
 
 /// Angle in rad between normals of a mesh about which a cable bends. Derived: ten degrees, more
 /// than one facet of a pulley of 36 sides; ground is flatter where a cable lies.

@@ -13,6 +13,7 @@ impl Warning {
             | Warning::IdleTorsion { .. }
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
+            | Warning::SlowBending { .. }
             | Warning::ThickElements { .. }
             | Warning::StartsInside { .. }
             | Warning::ThickDrag { .. }
@@ -70,6 +71,7 @@ impl Warning {
             | Warning::GreenStrain { cable, .. }
             | Warning::MuchSlack { cable, .. }
             | Warning::SlowStretch { cable, .. }
+            | Warning::SlowBending { cable, .. }
             | Warning::ThickElements { cable, .. }
             | Warning::ThickDrag { cable, .. }
             | Warning::FastFlow { cable, .. }
@@ -143,6 +145,7 @@ impl Judged for Warning {
             Warning::UntouchedObstacles { .. }
             | Warning::MuchSlack { .. }
             | Warning::SlowStretch { .. }
+            | Warning::SlowBending { .. }
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
             | Warning::HighRestitution { .. }
@@ -219,7 +222,7 @@ impl Judged for Warning {
             | Warning::FrictionLags { steps, .. } => *steps as f64,
             Warning::TwistSlips { slips, .. } => *slips as f64,
             Warning::MuchSlack { length_m, drawn_m, .. } => length_m / drawn_m,
-            Warning::SlowStretch { axial_s, .. } => *axial_s,
+            Warning::SlowStretch { axial_s: time, .. } | Warning::SlowBending { bending_s: time, .. } => *time,
             Warning::ThickElements { element_m, diameter_m, .. } => diameter_m / element_m,
             // the more beyond the sizes of cables the smaller the number, or there is none
             Warning::Stubby { ratio, .. } => -ratio,

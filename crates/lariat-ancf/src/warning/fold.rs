@@ -25,8 +25,9 @@ const CAUSES: [(Sign, &[Sign]); 10] = [
     (Sign::Inside, &[Sign::Depth, Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
     // the strain at a corner is set free at once, as a jump of the velocity is
     (Sign::Corner, &[Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
-    // what is put elsewhere, or starts elsewhere, is pulled to its place within steps, at any speed
-    (Sign::Gap, &[Sign::Strain, Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
+    // what is put elsewhere, or starts elsewhere, is pulled to its place within steps, at any
+    // speed, by work that no account has
+    (Sign::Gap, &[Sign::Strain, Sign::EnergyMade, Sign::Steps, Sign::Mesh, Sign::EnergyLost]),
     // steps that do not resolve the motion make it, and it goes into the shortest waves, which no
     // mesh resolves
     (Sign::EnergyMade, &[Sign::Steps, Sign::Mesh, Sign::EnergyLost]),

@@ -38,6 +38,7 @@ pub use crate::watch::{EnergyBalance, IslandChange, Passage, Through, Watch};
 pub use advised::AdvisedMesh;
 pub use level::Level;
 pub use shock::Shock;
+pub use watch::breaks_again;
 pub use words::Interface;
 
 use crate::scales::watch::STRAIN_ROUNDS;
@@ -530,6 +531,17 @@ pub enum Warning {
         cable: String,
         /// Time of the axial strain in s.
         axial_s: f64,
+    },
+    /// The same in bending.
+    #[error(
+        "cable {cable:?}: its damping in bending is {bending_s} s: it bends under a load only within such a time, and is stiff until then; it is the time of Kelvin \
+         and Voigt, not a share of the critical damping; for that of a rope set `CableBuilder::damped_as`"
+    )]
+    SlowBending {
+        /// Name of the cable.
+        cable: String,
+        /// Time of the curvature in s.
+        bending_s: f64,
     },
     /// Thicker in a fluid than any cable.
     #[error(

@@ -21,7 +21,7 @@ use super::Warning;
 use crate::effect::{AxialLaw, Damping, Drag, Effects};
 use crate::scales::watch::{
     FASTEST, FASTEST_CURRENT, FASTEST_WIND, LEAST_LIQUID, LIGHTEST, MOST_STRETCH, SLACK, SLENDERNESS, SLOWEST,
-    SLOWEST_STRETCH, SOFTEST, SOFTEST_CURVE, THICKEST,
+    SLOWEST_STRAIN, SOFTEST, SOFTEST_CURVE, THICKEST,
 };
 use crate::section::Section;
 
@@ -51,16 +51,18 @@ pub fn slack(cable: &str, length_m: f64, drawn_m: f64) -> Option<Warning> {
 
 /// Returns the warnings about numbers of effects in another measure, on a cable of an EA in N.
 pub fn of_effects(cable: &str, effects: &Effects, axial_stiffness_n: f64) -> impl Iterator<Item = Warning> {
-    let damping = effects.damping.as_ref().and_then(|own| damping(cable, own));
+    let damping = effects.damping.iter().flat_map(move |own| damping(cable, own));
     let drag = effects.drag.iter().flat_map(move |own| drag(cable, own));
     let curve = effects.axial_law.as_ref().and_then(|law| curve(cable, law, axial_stiffness_n));
-    damping.into_iter().chain(drag).chain(curve)
+    damping.chain(drag).chain(curve)
 }
 
-/// Returns the warning about damping in another measure.
-fn damping(cable: &str, damping: &Damping) -> Option<Warning> {
-    let axial_s = damping.axial;
-    (axial_s > SLOWEST_STRETCH).then(|| Warning::SlowStretch { cable: cable.to_string(), axial_s })
+/// Returns the warnings about damping in another measure.
+fn damping(cable: &str, damping: &Damping) -> impl Iterator<Item = Warning> {
+    let (cable, Damping { axial: axial_s, bending: bending_s }) = (cable.to_string(), *damping);
+    let stretch = (axial_s > SLOWEST_STRAIN).then(|| Warning::SlowStretch { cable: cable.clone(), axial_s });
+    let bending = (bending_s > SLOWEST_STRAIN).then_some(Warning::SlowBending { cable, bending_s });
+    stretch.into_iter().chain(bending)
 }
 
 /// Returns the warnings about drag on a diameter in mm, and of a flow in knots or km/h.

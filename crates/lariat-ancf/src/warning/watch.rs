@@ -42,7 +42,7 @@ const LAWS: [(Law, bool); 30] = [
     (|watch, cable, _| watch.contacts.coarse(cable), true),
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
-    (|_, cable, _| breaks_again(cable), true),
+    (|_, cable, _| breaks_again(cable, cable.snapshot.load.breaks()), true),
     (|_, cable, _| unresolved(cable), true),
     (|_, cable, _| cut_short(cable), true),
     (|_, cable, _| unsolved(cable), true),
@@ -302,9 +302,9 @@ fn unseen_load(cable: &Cable) -> Option<Warning> {
     Some(Warning::UnseenLoad { cable: cable.name().to_string(), time_s, share, reached, step_s })
 }
 
-/// Whether it is a part of a part of a part, and nothing damps it.
-fn breaks_again(cable: &Cable) -> Option<Warning> {
-    let breaks = cable.snapshot.load.breaks();
+/// Returns whether a part of a cable is one of a part of a part, by the number of
+/// [breaks](crate::Break::breaks) that made it, and nothing damps it.
+pub fn breaks_again(cable: &Cable, breaks: u32) -> Option<Warning> {
     let is_damped = cable.effects().damping.is_some_and(|damping| damping.axial > 0.0);
     (breaks >= BREAKS && !is_damped).then(|| Warning::BreaksAgain { cable: cable.name().to_string(), breaks })
 }

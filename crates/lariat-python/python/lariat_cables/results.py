@@ -311,7 +311,7 @@ class Break(NamedTuple):
     arc_length: float
     """Of the break in m: the new length of the part before it."""
     tension: float
-    """Largest tension in N since the end of the last host step; of a cut, the tension at it."""
+    """Largest elastic tension in N since the end of the last host step; of a cut, the tension at it."""
     strain: float
     """Strain there."""
     time: float
@@ -320,6 +320,10 @@ class Break(NamedTuple):
     """Strain energy of both parts in J."""
     inserted_energy: float
     """Change of the total energy in J by the edit itself."""
+    damping: float
+    """Tension of damping in N beside `tension`, which does not count."""
+    breaks: int
+    """Breaks by loads, one after another, that made the parts: 1 of a cable that was whole, 0 of a cut of one."""
 
 
 class ColliderHandle(NamedTuple):

@@ -14,8 +14,9 @@ fn description(reel: &Bound<'_, PyAny>) -> PyResult<Reel> {
 
 /// Makes the Python object of a break.
 pub fn broken<'py>(py: Python<'py>, how: &Break) -> PyResult<Bound<'py, PyAny>> {
-    let Break { cause, arc_length, tension, strain, time, strain_energy, inserted_energy, .. } = *how;
-    result(py, "Break", (cause.name(), arc_length, tension, strain, time, strain_energy, inserted_energy))
+    let Break { cause, arc_length, tension, damping, strain, time, strain_energy, inserted_energy, breaks, .. } = *how;
+    let name = cause.name();
+    result(py, "Break", (name, arc_length, tension, strain, time, strain_energy, inserted_energy, damping, breaks))
 }
 
 #[pymethods]

@@ -40,6 +40,9 @@ pub struct Parted {
     pub strain_energy_j: f64,
     /// Change of the total energy in J by the edit itself.
     pub inserted_energy_j: f64,
+    /// Breaks by loads, one after another, that made the parts, this one included.
+    #[serde(default)]
+    pub breaks: u32,
 }
 
 impl Parted {
@@ -56,6 +59,7 @@ impl Parted {
             strain: how.strain,
             strain_energy_j: how.strain_energy,
             inserted_energy_j: how.inserted_energy,
+            breaks: how.breaks,
         }
     }
 }

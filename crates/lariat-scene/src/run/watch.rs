@@ -8,6 +8,21 @@ use crate::error::Error;
 use crate::scene::Purpose;
 use crate::warning::Warning;
 use lariat_ancf::warning::balance::{EnergyBalance, Verdict};
+use lariat_ancf::warning::breaks_again;
+use lariat_ancf::warning::fold::Judged;
+
+/// Returns what is to be said of the parts of cables that break again and again.
+fn broken_again(world: &World) -> impl Iterator<Item = Warning> {
+    world.cables().into_iter().zip(&world.scene.cables).filter_map(|(cable, own)| {
+        let breaks = world.breaks.iter().filter(|parted| parted.cable == own.name).map(|parted| parted.breaks);
+        breaks_again(cable, breaks.max()?).map(Warning::Cable)
+    })
+}
+
+/// Returns whether two warnings are of one kind and about one cable.
+fn is_same(one: &Warning, other: &Warning) -> bool {
+    one.same_kind(other) && one.cable() == other.cable()
+}
 
 /// The readings of the cables of a run so far, and its energy balance.
 pub(super) struct Watch {
@@ -78,8 +93,12 @@ impl Watch {
         let of_gaps = world.physics.iter().flat_map(|physics| physics.open_gaps(&world.scene));
         let of_joints = world.physics.iter().flat_map(|physics| physics.unsettled(&world.scene));
         let name = |key| world.physics.as_ref()?.name_of_obstacle(&world.scene, key);
+        let mut of_cables: Vec<_> = of_cables.map(|warning| Warning::Cable(warning.with_body(name))).collect();
+        let of_parts: Vec<_> =
+            broken_again(world).filter(|part| !of_cables.iter().any(|own| is_same(own, part))).collect();
+        of_cables.extend(of_parts);
         of_cables
-            .map(|warning| Warning::Cable(warning.with_body(name)))
+            .into_iter()
             .chain(self.energy_warning(world))
             .chain(of_wheels)
             .chain(of_hinges)
