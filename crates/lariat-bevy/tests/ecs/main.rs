@@ -12,6 +12,7 @@ mod events;
 mod junctions;
 mod lifecycle;
 mod mesh;
+mod mistakes;
 mod order;
 mod pendulum;
 mod plugin;
