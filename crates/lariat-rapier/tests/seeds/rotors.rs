@@ -36,7 +36,10 @@ impl Rotor {
         let (radius, rope, mass) = (r.log(0.05, 1.0), r.log(0.1, 2.0), r.log(0.005, 2.0));
         let (stiffness, rate) = (r.log(1e4, 3e6), r.one(&[30, 60, 120, 240]));
         let section = Section::from_stiffness(stiffness, stiffness * r.log(1e-9, 1e-7), mass).unwrap();
-        let period = 4.0 * rope / (stiffness / mass).sqrt();
+        let wave = (stiffness / mass).sqrt();
+        let period = 4.0 * rope / wave;
+        // a string that stretches by a share swings by it, which the reference does not know: T/EA <= 0.01
+        let slow = 0.13 * wave / rope;
         Rotor {
             radius,
             rope,
@@ -46,7 +49,7 @@ impl Rotor {
             clamp: r.one(&[false, true]),
             drive: r.one(&[Drive::Poses, Drive::Velocity, Drive::Inertia]),
             // Rapier rotates by at most pi/4 in a step
-            speed: r.log(1.0, 30.0).min(0.75 * rate as f64) * r.one(&[-1.0, 1.0]),
+            speed: r.log(1.0, 30.0).min(0.75 * rate as f64).min(slow) * r.one(&[-1.0, 1.0]),
             fidelity: r.one(&[Fidelity::Game, Fidelity::Engineering]),
             rate,
         }
