@@ -4,6 +4,7 @@ use super::browser::Browser;
 use super::page::{page_of, scene};
 use lariat_scene::run::{self, Options};
 use lariat_scene::{Purpose, Scene};
+use std::path::Path;
 
 const DRAWN: &str = "document.documentElement.dataset.drawn";
 const FRAME: &str = "document.documentElement.dataset.frame";
@@ -210,4 +211,36 @@ fn the_picture_of_the_readme_is_small() {
     if let Ok(file) = std::env::var("LARIAT_PICTURE") {
         std::fs::write(file, picture).unwrap();
     }
+}
+
+/// Every page of a shipped scene shows the scene in its first window, below at most three lines of words; the rest is folded.
+#[test]
+#[ignore = "needs Chromium: .ci/view"]
+fn the_scene_comes_first_on_every_page() {
+    let mut page = Browser::start(1200, 800);
+    let mut seen = 0;
+    for folder in ["scenes", "contact", "hard"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(folder);
+        for file in std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()) {
+            let out = tempfile::tempdir().unwrap();
+            let short = ["duration=0.05".to_string()];
+            // what ends before, or has a table beyond it, is as it is
+            let Ok(scene) = Scene::read(&file, &short, Purpose::Run) else { continue };
+            let _ = run::run(&scene, out.path(), &mut run::Options::default());
+            page.open(&out.path().join("view.html"));
+            let lines = page.ask("document.querySelectorAll('#words p.line').length").parse::<u32>().unwrap();
+            let [top, bottom] = ["top", "bottom"].map(|side| {
+                page.ask(&format!("document.getElementById('scene').getBoundingClientRect().{side}"))
+                    .parse::<f64>()
+                    .unwrap()
+            });
+            let name = file.display();
+            assert!(
+                lines <= 3 && top < 250.0 && bottom <= 800.0,
+                "{name}: {lines} lines, the scene from {top} to {bottom} px"
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen > 50 && page.complaints.is_empty(), "{seen} {:?}", page.complaints);
 }
