@@ -102,6 +102,14 @@ pub(crate) mod mechanism {
     /// where joints lock the same motion twice.
     pub(crate) const REGULARISATION: f64 = 1e-12;
 
+    /// Share of the mass of a mechanism below which a body of it may be a light link. Derived: of
+    /// one that is not, nine tenths of an error are gone after two substeps.
+    pub(crate) const LIGHT_LINK: f64 = 0.1;
+
+    /// The same where the forces of the joints themselves are asked for. Unknown: what does not
+    /// agree of joints that lock the same motion twice is not to count.
+    pub(crate) const REGULARISATION_OF_OPENING: f64 = 1e-6;
+
     /// z below which the implicit share of damping is a series. Derived: the next term, z^3/720,
     /// and the rounding of the difference of two inverses are both about 1e-12 there.
     pub(crate) const SERIES: f64 = 1e-3;

@@ -4,7 +4,7 @@
 //! ```text
 //! |v_after - v0| > 0.05 (|p| + |m g h| + |v1 - v|)               in more than a quarter of the Rapier steps
 //! |sum ((F0 + F) h/2 - p)| > 0.05 sum |p|                        over the time
-//! g > max(0.1 s, 2e-3 a)                                         for 0.05 s and three steps
+//! g or g_e > max(0.1 s, 2e-3 a)                                  for 0.05 s and three steps
 //! ```
 //! Either of the first two tells if it holds in half a second, and in the next, the third at once.
 //! v0 is the velocity that Rapier was given, p = L (v1 - v - a0 h) - (m g + r) h the impulse of the
@@ -19,7 +19,8 @@
 //! g is the largest [gap](JointGap) of the joints that the body moves with, a the
 //! arm of that joint, and s the way of the body since the last half second began: joints that
 //! Rapier does not solve let the body sink, and by that much its position is wrong, whatever the
-//! cable does.
+//! cable does. g_e is the gap to which they are [to open](crate::mechanism) by the motion that they
+//! hold, known before the body has sunk.
 //!
 //! # Validity
 //! Random chains of 2 to 14 links on one or two ropes, near a body or not, 30 to 240 Hz, both
@@ -38,7 +39,7 @@ use serde::{Deserialize, Serialize};
 
 /// A body on joints whose motion was not the predicted one for half a second, or whose joints came
 /// apart, so that forces and tensions of its cables are not to be trusted.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Unsettled {
     /// Time of the cable in s at the end of the worst half second, or of the largest gap.
@@ -51,17 +52,28 @@ pub struct Unsettled {
     /// Distance in m by which a joint of the body came apart; 0 where all of them hold.
     #[serde(default)]
     pub gap: f64,
+    /// Whether that gap has not shown yet: the joints are to open so far by what they carry.
+    #[serde(default)]
+    pub foreseen: bool,
 }
 
 impl Unsettled {
-    /// Creates one from its fields: s, two shares, m.
-    pub fn new(time: f64, steps: f64, force: f64, gap: f64) -> Self {
-        Unsettled { time, steps, force, gap }
+    /// Creates one of half a second from its fields: s, two shares.
+    pub fn new(time: f64, steps: f64, force: f64) -> Self {
+        Unsettled { time, steps, force, ..Unsettled::default() }
+    }
+
+    /// Returns it with joints that came apart by `gap` (m), or are to do so.
+    pub fn with_gap(self, gap: f64, foreseen: bool) -> Self {
+        Unsettled { gap, foreseen, ..self }
     }
 
     /// Returns in words what is wrong.
     pub fn text(&self) -> String {
-        let Unsettled { time, steps, force, gap } = self;
+        let Unsettled { time, steps, force, gap, foreseen } = self;
+        if *foreseen {
+            return format!("by what they carry at {time:.3} s Rapier lets one of them open by {gap:.1e} m");
+        }
         if *gap > 0.0 {
             return format!("at {time:.3} s one of them is {gap:.1e} m apart");
         }
@@ -93,17 +105,25 @@ struct JointWatch {
 }
 
 impl JointWatch {
-    /// Reads a Rapier step; returns the gap in m if it has lasted.
-    fn note(&mut self, joints: &JointGap, position: &Vector3<f64>, h: f64) -> Option<f64> {
-        let from = *self.from.get_or_insert(*position);
+    /// Reads a Rapier step; returns the gap in m if it has lasted, and whether it is only foreseen.
+    fn note(&mut self, step: &SettleStep) -> Option<(f64, bool)> {
+        let position = step.body.position;
+        let from = *self.from.get_or_insert(position);
         self.way[1] = self.way[1].max((position - from).norm());
-        let limit = (JOINT_WAY * self.way[0].max(self.way[1])).max(JOINT_GAP * joints.arm);
-        self.lasting = match joints.gap > limit {
-            true => (self.lasting.0 + h, self.lasting.1 + 1),
-            false => (0.0, 0),
+        let limit = |joints: &JointGap| (JOINT_WAY * self.way[0].max(self.way[1])).max(JOINT_GAP * joints.arm);
+        let is_beyond = |joints: &JointGap| joints.gap > limit(joints);
+        let found = match (is_beyond(&step.joints), is_beyond(&step.opening)) {
+            (true, _) => Some((step.joints.gap, false)),
+            // the law is one of gaps small beside the arm
+            (false, true) => Some((step.opening.gap.min(step.opening.arm), true)),
+            (false, false) => None,
+        };
+        self.lasting = match found {
+            Some(_) => (self.lasting.0 + step.h, self.lasting.1 + 1),
+            None => (0.0, 0),
         };
         let (time, steps) = self.lasting;
-        (time >= JOINT_TIME * (1.0 - TIME_ROUNDING) && steps >= JOINT_STEPS).then_some(joints.gap)
+        found.filter(|_| time >= JOINT_TIME * (1.0 - TIME_ROUNDING) && steps >= JOINT_STEPS)
     }
 
     /// Begins another half second.
@@ -144,8 +164,9 @@ pub(crate) struct SettleStep<'a> {
     /// Impulse of its cables, and what is read of it.
     pub pull: Vector6<f64>,
     pub read: Vector6<f64>,
-    /// The joints that it moves with.
+    /// Of the joints that it moves with, the largest gap, and that to which they are to open.
     pub joints: JointGap,
+    pub opening: JointGap,
     /// What gravity gives to a mass in the step, in m/s.
     pub gravity: f64,
     /// Time step, and time of the cables after it, in s.
@@ -156,11 +177,11 @@ pub(crate) struct SettleStep<'a> {
 impl SettleWatch {
     /// Reads a Rapier step.
     pub fn note(&mut self, step: &SettleStep) {
-        if let Some(gap) = self.joints.note(&step.joints, &step.body.position, step.h) {
-            let before = self.worst.map_or(0.0, |worst| worst.gap);
-            if gap > before {
-                let found = Unsettled { time: step.time, steps: 0.0, force: 0.0, gap };
-                self.worst = Some(self.worst.map_or(found, |worst| Unsettled { time: step.time, gap, ..worst }));
+        if let Some((gap, foreseen)) = self.joints.note(step) {
+            let worst = self.worst.unwrap_or_default();
+            // what shows counts more than what is foreseen
+            if (worst.gap > 0.0, !worst.foreseen, worst.gap) < (true, !foreseen, gap) {
+                self.worst = Some(Unsettled { time: step.time, ..worst.with_gap(gap, foreseen) });
                 self.due = !self.told;
             }
         }
@@ -182,8 +203,8 @@ impl SettleWatch {
         if self.time >= SETTLE_WINDOW * (1.0 - TIME_ROUNDING) {
             let steps = f64::from(self.deviating) / f64::from(self.steps);
             let force = if self.pull > 0.0 { of_impulse(&self.difference) / self.pull } else { 0.0 };
-            let gap = self.worst.map_or(0.0, |worst| worst.gap);
-            let found = Unsettled { time: step.time, steps, force, gap };
+            let gap = self.worst.unwrap_or_default();
+            let found = Unsettled::new(step.time, steps, force).with_gap(gap.gap, gap.foreseen);
             let kept = self.worst.is_some_and(|worst| worst.steps.max(worst.force) >= steps.max(force));
             let unsettled = steps > SETTLE_STEPS || force > SETTLE_SHARE;
             if unsettled && self.before && !kept {

@@ -3,7 +3,9 @@
 use super::of_body::Mechanism;
 use super::request::Request;
 use super::{joint_chain, multibody};
-use rapier::dynamics::RigidBodyHandle;
+use crate::body::ledger::is_ledger;
+use crate::scales::mechanism::MAX_BODIES;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::pipeline::PhysicsWorld;
 
 /// Returns the mechanism of a body; `None` if it moves alone.
@@ -22,6 +24,31 @@ pub(crate) fn bodies(world: &PhysicsWorld, handle: RigidBodyHandle) -> Vec<Rigid
         Some(multibody) => multibody.links().map(|link| link.rigid_body_handle()).collect(),
         None => joint_chain::bodies(world, handle),
     }
+}
+
+/// Returns whether a body moves with others by impulse joints and by those of a multibody: its
+/// mobility is that of neither. Bodies beyond [`MAX_BODIES`] are not looked at.
+pub(crate) fn is_mixed(world: &PhysicsWorld, handle: RigidBodyHandle) -> bool {
+    let (mut found, mut kinds, mut next) = (vec![handle], [false; 2], 0);
+    let is = |body: RigidBodyHandle, test: fn(&RigidBody) -> bool| world.bodies.get(body).is_some_and(test);
+    while next < found.len().min(MAX_BODIES) {
+        let body = found[next];
+        let joints = world.impulse_joints.attached_enabled_joints(body);
+        let held = joints.filter(|(_, _, _, joint)| !joint.data.locked_axes.is_empty());
+        let held = held.flat_map(|(a, b, ..)| [a, b]).filter(|other| !is(*other, is_ledger));
+        let link = world.multibody_joints.rigid_body_link(body);
+        let multibody = link.and_then(|link| world.multibody_joints.get_multibody(link.multibody));
+        let links = multibody.into_iter().flat_map(|multibody| multibody.links().map(|link| link.rigid_body_handle()));
+        let others = held.map(|other| (other, 0)).chain(links.map(|other| (other, 1)));
+        for (other, kind) in others.filter(|(other, _)| *other != body) {
+            kinds[kind] = true;
+            if is(other, RigidBody::is_dynamic) && !found.contains(&other) {
+                found.push(other);
+            }
+        }
+        next += 1;
+    }
+    kinds == [true; 2]
 }
 
 #[cfg(test)]
@@ -68,8 +95,14 @@ mod tests {
             world.gravity = Vector::new(0.0, -9.81, 0.0);
             let [one, two] = [here, there].map(|b| read(&world, b, &BodyRecord::new(b), 0.0).unwrap());
             let members = [(here, Vector6::zeros())];
-            let request =
-                Request { handle: here, members: &members, half_step: 1e-3, substep: 1e-3, is_attached: &|_| false };
+            let request = Request {
+                handle: here,
+                members: &members,
+                half_step: 1e-3,
+                substep: 1e-3,
+                sweeps: 1,
+                is_attached: &|_| false,
+            };
             let mechanism = find(&world, &request).unwrap();
             let rigid = mechanism.mobility_of(here).unwrap().try_inverse().unwrap();
             let (carried, load) = (rigid - own_inertia(&one), rigid * mechanism.loads.of_body);

@@ -16,14 +16,17 @@
 //! Udwadia & Kalaba 1992.
 
 use super::constraints::{Constraints, Limit};
+use super::joint_gap::{arm, is_stiff};
+use super::joint_opening::{JointRows, opening};
 use super::limits;
 use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::of_body::{Mechanism, Velocities};
 use super::request::Request;
 use crate::body::ledger::is_ledger;
 use crate::body::spatial::stack_spatial;
+use crate::body::unsettled::JointGap;
 use crate::convert::{rotation, symmetric, vector};
-use crate::scales::mechanism::MAX_BODIES;
+use crate::scales::mechanism::{LIGHT_LINK, MAX_BODIES};
 use ::nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 use rapier::dynamics::{ImpulseJoint, RigidBody, RigidBodyHandle};
 use rapier::pipeline::PhysicsWorld;
@@ -57,13 +60,17 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism>
             forces[0].fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&load);
         }
     }
-    let (rows, limits) = constraint_rows(world, &joints, n, predicts_loads, half)?;
-    let (rows_now, _) = constraint_rows(world, &joints, n, predicts_loads, 0.0)?;
+    let (rows, limits, of_joints) = constraint_rows(world, &joints, n, predicts_loads, half)?;
+    let (rows_now, ..) = constraint_rows(world, &joints, n, predicts_loads, 0.0)?;
     let turning = (&rows - rows_now) * velocities(world, &bodies) / half;
     let spread = &inverse * rows.transpose();
     let columns = inverse.columns(0, 6).into_owned();
     let [free, all] = forces.map(|forces| &inverse * forces);
     let constraints = Constraints { rows, spread, turning, limits, substep: request.substep };
+    let opening = match predicts_loads && has_light_link(world, &bodies) {
+        true => opening(&constraints, &of_joints, (request.substep, request.sweeps)),
+        false => JointGap::default(),
+    };
     let (response, free, turned) = constraints.project(&columns, &free, &all)?;
     loads.of_body = free.fixed_view::<6, 1>(0, 0) + turned.fixed_rows::<6>(0);
     loads.accelerations = free.column(0).into_owned();
@@ -71,7 +78,7 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism>
     let members = bodies.iter().enumerate().filter(|(_, body)| request.is_member(**body));
     let mobilities = members.map(|(i, body)| (*body, response.fixed_view::<6, 6>(6 * i, 0).into_owned())).collect();
     let before = bodies.iter().map(|b| (*b, world.bodies[*b].linvel(), world.bodies[*b].angvel())).collect();
-    Some(Mechanism { handle, response, mobilities, before: Velocities::OfBodies(before), loads })
+    Some(Mechanism { handle, response, mobilities, before: Velocities::OfBodies(before), loads, opening })
 }
 
 /// Returns the bodies that impulse joints connect with one, itself first, and the joints; `None` if
@@ -107,6 +114,13 @@ fn connected(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<(Vec<Rigid
     }
     let has_link = bodies.iter().any(|b| world.multibody_joints.rigid_body_link(*b).is_some());
     (!has_link).then_some((bodies, joints))
+}
+
+/// Returns whether one of the bodies is so light beside all that it may carry little through its
+/// joints.
+fn has_light_link(world: &PhysicsWorld, bodies: &[RigidBodyHandle]) -> bool {
+    let masses = || bodies.iter().map(|body| f64::from(world.bodies[*body].mass()));
+    masses().any(|mass| mass < LIGHT_LINK * masses().sum::<f64>())
 }
 
 /// Returns the velocities of all bodies.
@@ -152,13 +166,14 @@ fn constraint_rows(
     n: usize,
     predicts_loads: bool,
     time: f64,
-) -> Option<(DMatrix<f64>, Vec<Option<Limit>>)> {
+) -> Option<(DMatrix<f64>, Vec<Option<Limit>>, Vec<JointRows>)> {
     let active =
         |joint: &ImpulseJoint| if predicts_loads { limits::reached(world, joint) } else { limits::pushing(joint) };
     let held = |joint: &ImpulseJoint| joint.data.locked_axes.bits() | active(joint);
     let count: usize = joints.iter().map(|(_, joint)| held(joint).count_ones() as usize).sum();
     let mut rows = DMatrix::<f64>::zeros(count, n);
     let mut found: Vec<Option<Limit>> = Vec::with_capacity(count);
+    let mut of_joints = Vec::with_capacity(joints.len());
     for (ends, joint) in joints {
         let (a, b) = (world.bodies.get(joint.body1())?, world.bodies.get(joint.body2())?);
         let places = [place_in(a, time), place_in(b, time)];
@@ -166,6 +181,12 @@ fn constraint_rows(
         let at = vector(joint.data.local_frame2.translation - b.local_center_of_mass());
         let point = places[1].0 + places[1].1 * at;
         let held = held(joint);
+        of_joints.push(JointRows {
+            first: found.len(),
+            count: held.count_ones() as usize,
+            directions: if is_stiff(joint) { (held & 0b111).count_ones() as usize } else { 0 },
+            arm: arm(a, b, joint),
+        });
         for axis in (0..6).filter(|axis| held & (1 << axis) != 0) {
             let row = found.len();
             let along = basis.matrix().column(axis % 3).into_owned();
@@ -190,5 +211,5 @@ fn constraint_rows(
             }));
         }
     }
-    Some((rows, found))
+    Some((rows, found, of_joints))
 }

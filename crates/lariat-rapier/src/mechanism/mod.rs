@@ -32,13 +32,14 @@ mod group;
 mod joint_chain;
 mod joint_damping;
 mod joint_gap;
+mod joint_opening;
 mod limits;
 mod loads;
 mod multibody;
 mod of_body;
 mod request;
 
-pub(crate) use find::{bodies, find};
+pub(crate) use find::{bodies, find, is_mixed};
 pub(crate) use generalised::refresh;
 pub(crate) use group::{Group, Jointed, own_inertia, velocity_of};
 pub(crate) use multibody::prepare;

@@ -39,6 +39,7 @@ use super::loads::{CarriedLoads, are_isolated, can_predict_loads};
 use super::of_body::{Mechanism, Velocities};
 use super::request::Request;
 use crate::body::spatial::{split_spatial, stack_spatial};
+use crate::body::unsettled::JointGap;
 use crate::convert::symmetric;
 use crate::scales::mechanism::SERIES;
 use ::nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
@@ -137,7 +138,7 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism>
         members.map(|(i, body)| (*body, Matrix6::from_iterator((jacobian(i) * &response).iter().copied())));
     let mobilities = mobilities.collect();
     let before = Velocities::Generalised(multibody.generalized_velocity().iter().copied().collect());
-    Some(Mechanism { handle: request.handle, response, mobilities, before, loads })
+    Some(Mechanism { handle: request.handle, response, mobilities, before, loads, opening: JointGap::default() })
 }
 
 /// Returns the force and the torque that accelerate a body; zero for one that is not dynamic.

@@ -3,6 +3,7 @@
 use super::generalised::edit_velocity;
 use super::loads::CarriedLoads;
 use crate::body::spatial::split_spatial;
+use crate::body::unsettled::JointGap;
 use crate::convert::{to_vector, vector};
 use ::nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use rapier::dynamics::RigidBodyHandle;
@@ -19,6 +20,8 @@ pub(crate) struct Mechanism {
     pub(super) mobilities: Vec<(RigidBodyHandle, Matrix6<f64>)>,
     pub(super) before: Velocities,
     pub loads: CarriedLoads,
+    /// To what its joints open where Rapier does not converge.
+    pub opening: JointGap,
 }
 
 /// The velocities of a mechanism before the step.

@@ -10,6 +10,8 @@ pub(crate) struct Request<'a> {
     pub half_step: f64,
     /// Rapier's substep in s.
     pub substep: f64,
+    /// How often Rapier goes through all joints in a substep.
+    pub sweeps: usize,
     /// The bodies of its island, itself included, with force in N and torque in N m on each over
     /// the step, those of its cables included: they decide which limits are active.
     pub members: &'a [(RigidBodyHandle, Vector6<f64>)],

@@ -16,6 +16,7 @@ use crate::convert::{rotation, to_vector, vector};
 use crate::error::Error;
 use crate::events::Event;
 use crate::handle::{AttachmentHandle, CableHandle};
+use crate::mechanism;
 use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
 use crate::scales::read::{FAR_ANCHOR, JOLT};
@@ -123,6 +124,17 @@ pub enum Warning {
         /// Radius of a sphere about the origin that holds the colliders in m.
         radius: f64,
     },
+    /// A body that moves with others by impulse joints and by those of a multibody at once.
+    #[error(
+        "cable {name:?}: the body of an attachment is held by impulse joints and by those of a multibody at once, and how that answers a cable is not predicted: its motion \
+         and forces may be far off; make all joints of its mechanism of one kind"
+    )]
+    MixedJoints {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+    },
     /// The world is in another unit than m.
     #[error(
         "Rapier's `length_unit` is {unit}: cables are in m, kg and s, and so are the limits by which their contacts, steps and warnings are judged; scale the world to m"
@@ -157,6 +169,7 @@ impl Warning {
             Warning::InCollider { .. }
             | Warning::VelocityJump { .. }
             | Warning::FarAnchor { .. }
+            | Warning::MixedJoints { .. }
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => Level::Setup,
             Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
@@ -172,6 +185,7 @@ impl Warning {
             Warning::OpenGap { attachment, .. }
             | Warning::Unsettled { attachment, .. }
             | Warning::FarAnchor { attachment, .. }
+            | Warning::MixedJoints { attachment, .. }
             | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
             Warning::LengthUnit { .. } => None,
         }
@@ -187,10 +201,10 @@ impl Judged for Warning {
         match self {
             Warning::Cable { warning, .. } => warning.sign(),
             Warning::InCollider { .. } => Some(Sign::Inside),
-            Warning::OpenGap { .. } => Some(Sign::Gap),
+            Warning::OpenGap { .. } | Warning::FarAnchor { .. } => Some(Sign::Gap),
             Warning::VelocityJump { .. } => Some(Sign::Shock),
             Warning::Unsettled { .. }
-            | Warning::FarAnchor { .. }
+            | Warning::MixedJoints { .. }
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => None,
         }
@@ -221,6 +235,7 @@ impl Judged for Warning {
             Warning::HighRestitution { restitution, .. } => *restitution,
             Warning::FarAnchor { distance, radius, .. } => distance / radius,
             Warning::LengthUnit { unit } => *unit,
+            Warning::MixedJoints { .. } => 0.0,
         }
     }
 }
@@ -254,6 +269,7 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         let attachment = AttachmentHandle(i as u32);
         warnings.extend(of_attachment(contents, attachment, a, world));
         warnings.extend(far_anchor(contents, attachment, a, world));
+        warnings.extend(mixed_joints(contents, attachment, a, world));
         if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
             warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
         }
@@ -320,7 +336,9 @@ fn of_attachment(
     let there = vector(body.velocity_at_point(to_vector(&anchor)));
     let difference = cable.sample(own.arc_length).ok()?.velocity - there;
     let rounding = HOST_ROUNDING * f64::from(Real::EPSILON) * there.amax();
-    let mass = if body.is_dynamic() { f64::from(body.mass()) } else { 0.0 };
+    let carried = contents.attachments.values().filter(|other| other.cable == own.cable);
+    let bodies = carried.filter_map(|other| world.bodies.get(other.body)).filter(|body| body.is_dynamic());
+    let mass: f64 = bodies.map(|body| f64::from(body.mass())).sum();
     let shock = cable.shock(own.arc_length, &difference, mass * vector(world.gravity).norm()).ok()?;
     let (difference, force) = (difference.norm(), shock.force);
     let due = difference > JOLT + rounding && shock.is_large();
@@ -349,6 +367,17 @@ fn far_anchor(
     far.then_some(Warning::FarAnchor { attachment, name, distance, radius })
 }
 
+/// Returns whether the joints of the body of an attachment are of two kinds.
+fn mixed_joints(
+    contents: &Contents,
+    attachment: AttachmentHandle,
+    own: &Attachment,
+    world: &PhysicsWorld,
+) -> Option<Warning> {
+    let name = contents.cable(own.cable).ok()?.name().to_string();
+    mechanism::is_mixed(world, own.body).then_some(Warning::MixedJoints { attachment, name })
+}
+
 /// Logs, before a host step, what is wrong with how cables and attachments begin that have not been
 /// stepped: where they lie and how they move is what the user gave. Chooses what is read of cables
 /// by the level that is `asked` for.
@@ -368,10 +397,9 @@ pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, asked: Op
         let is_new = contents.attachments.get_mut(index).is_some_and(|attachment| attachment.watch.introduce());
         let Some(own) = contents.attachments.get(index).filter(|_| is_new) else { continue };
         let is_watched = contents.cable(own.cable).is_ok_and(Cable::is_watched);
-        let warning = of_attachment(contents, AttachmentHandle(index as u32), own, world);
-        if let Some(warning) = warning.filter(|_| is_watched) {
-            log::warn!("{warning}");
-        }
+        let of = [of_attachment, far_anchor, mixed_joints]
+            .map(|of| of(contents, AttachmentHandle(index as u32), own, world));
+        of.iter().flatten().filter(|_| is_watched).for_each(|warning| log::warn!("{warning}"));
     }
 }
 

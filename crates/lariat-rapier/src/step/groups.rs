@@ -147,6 +147,7 @@ fn watch(
             pull: of(&impulses, k) - given + motors,
             read,
             joints,
+            opening: parts[0].mechanism.opening,
             gravity: vector(world.gravity).norm() * h,
             h,
             time,

@@ -204,10 +204,18 @@ fn find_mechanisms(
     let of_cables =
         |handle| contents.records.get(handle).map_or_else(Vector6::zeros, |record| record.pull - record.reaction);
     let is_attached = |b| contents.attachments.values().any(|a| a.body == b);
-    let substep = step.h / world.integration_parameters.num_solver_iterations.max(1) as f64;
+    let parameters = &world.integration_parameters;
+    let substep = step.h / parameters.num_solver_iterations.max(1) as f64;
+    let sweeps = parameters.num_internal_pgs_iterations.max(1);
     let half_step = 0.5 * step.h;
-    let request =
-        |handle| mechanism::Request { handle, members: &members, half_step, substep, is_attached: &is_attached };
+    let request = |handle| mechanism::Request {
+        handle,
+        members: &members,
+        half_step,
+        substep,
+        sweeps,
+        is_attached: &is_attached,
+    };
     let mut together: Vec<Vec<usize>> = Vec::new();
     for (m, handle) in bodies() {
         mechanisms[m] = mechanism::find(world, &request(handle));

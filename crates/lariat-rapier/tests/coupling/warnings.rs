@@ -401,3 +401,34 @@ fn a_rope_that_slides_over_facets_is_told() {
     run(&mut world, &mut set, 60);
     assert!(!is_told(&set, &world), "{:?}", set.warnings(&world));
 }
+
+/// A body on an impulse joint to a link of a multibody is told before the first step, and one whose joints are of one kind is not; so is a ring that an
+/// impulse joint closes.
+#[test]
+fn joints_of_two_kinds_are_told() {
+    let told = |reduced: [bool; 2], ring: bool| {
+        let mut world = PhysicsWorld::new();
+        let root = world.insert_body(RigidBodyBuilder::fixed());
+        let bodies =
+            [add_cube(&mut world, 200.0, 0.3, [1.0, 0.0, 0.0]), add_cube(&mut world, 1.0, 0.1, [2.0, 0.0, 0.0])];
+        let hinge =
+            || RevoluteJointBuilder::new(Vector::Z).local_anchor1(Vector::X * 0.5).local_anchor2(-Vector::X * 0.5);
+        for (one, other, multibody) in [(root, bodies[0], reduced[0]), (bodies[0], bodies[1], reduced[1])] {
+            match multibody {
+                true => world.multibody_joints.insert(one, other, hinge(), true).map(|_| ()).unwrap(),
+                false => drop(world.insert_impulse_joint(one, other, hinge())),
+            }
+        }
+        if ring {
+            let closing =
+                RevoluteJointBuilder::new(Vector::Z).local_anchor1(Vector::X * 2.0).local_anchor2(Vector::ZERO);
+            world.insert_impulse_joint(root, bodies[1], closing);
+        }
+        let mut set = CableSet::new();
+        let rope = set.insert(cable([2.0, 0.0, 0.0], [2.0, 2.0, 0.0], soft()).fix(At::End).build().unwrap());
+        set.attach(&world, rope, At::Start, bodies[1], Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.warnings(&world).iter().any(|warning| matches!(warning, Warning::MixedJoints { .. }))
+    };
+    assert!(told([true, false], false) && told([false, true], false) && told([true, true], true));
+    assert!(!told([true, true], false) && !told([false, false], false) && !told([false, false], true));
+}

@@ -258,8 +258,9 @@ impl Physics {
                 continue;
             }
             differ = true;
-            let own = &self.world.bodies[self.bodies[body]];
-            let mass = if own.is_dynamic() { f64::from(own.mass()) } else { 0.0 };
+            let carried = scene.attachments.iter().filter(|other| other.cable == attachment.cable);
+            let bodies = carried.filter_map(|other| self.world.bodies.get(self.bodies[other.body?]));
+            let mass: f64 = bodies.filter(|body| body.is_dynamic()).map(|body| f64::from(body.mass())).sum();
             let shock = cables[attachment.cable].shock(at, &difference, mass * scene.gravity.norm())?;
             if shock.is_large() {
                 let (attachment, cable) = (attachment.name.clone(), scene.cables[attachment.cable].name.clone());

@@ -22,9 +22,17 @@ impl Physics {
         let attachments = self.attachments.iter().zip(&scene.attachments);
         let unsettled = attachments.filter_map(|(handle, attachment)| {
             let how = self.cables.unsettled((*handle)?).ok()??;
-            let (time_s, steps, force, gap_m) = (how.time, how.steps, how.force, how.gap);
+            let (time_s, steps, force, gap_m, foreseen) = (how.time, how.steps, how.force, how.gap, how.foreseen);
             let cable = scene.cables[attachment.cable].name.clone();
-            Some(Warning::Unsettled { attachment: attachment.name.clone(), cable, time_s, steps, force, gap_m })
+            Some(Warning::Unsettled {
+                attachment: attachment.name.clone(),
+                cable,
+                time_s,
+                steps,
+                force,
+                gap_m,
+                foreseen,
+            })
         });
         unsettled.collect()
     }

@@ -8,6 +8,7 @@
 //! ten diameters is more than any sheath; no hook is three radii of its body away from it. What the mechanics know by themselves is in
 //! `lariat_ancf::warning::sizes`.
 
+use super::attachment::AttachmentScene;
 use super::body::{BodyKind, BodyMass, BodyScene, BodyShape};
 use super::elements::Fine;
 use super::load::LoadScene;
@@ -44,6 +45,7 @@ impl Scene {
         let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
         warnings.extend(self.cables.iter().filter_map(thick_contact));
         warnings.extend(self.far_anchors());
+        warnings.extend(self.mixed_joints());
         warnings.extend(self.large_loads());
         warnings.extend(self.many_turns());
         warnings.extend(self.large_in_waves());
@@ -114,9 +116,35 @@ impl Scene {
             let (body, distance_m) = (&self.bodies[attachment.body?], attachment.anchor?.norm());
             let radius_m = radius(body);
             let far = body.kind == BodyKind::Dynamic && radius_m > 0.0 && distance_m > ANCHOR * radius_m;
-            let (attachment, body) = (attachment.name.clone(), body.name.clone());
-            far.then_some(Warning::FarAnchor { attachment, body, distance_m, radius_m })
+            let (cable, name) = (self.cables[attachment.cable].name.clone(), attachment.name.clone());
+            far.then(|| Warning::FarAnchor { attachment: name, cable, body: body.name.clone(), distance_m, radius_m })
         })
+    }
+
+    /// Returns a warning for each attachment to a body that moves with others by joints of both kinds.
+    fn mixed_joints(&self) -> Vec<Warning> {
+        let mixed = |body: usize| {
+            let (mut found, mut kinds, mut next) = (vec![body], [false; 2], 0);
+            while next < found.len() {
+                let at = found[next];
+                for joint in self.joints.iter().filter(|joint| joint.body == at || joint.to == Some(at)) {
+                    kinds[usize::from(joint.multibody)] = true;
+                    for other in [Some(joint.body), joint.to].into_iter().flatten() {
+                        if self.bodies[other].kind == BodyKind::Dynamic && !found.contains(&other) {
+                            found.push(other);
+                        }
+                    }
+                }
+                next += 1;
+            }
+            kinds == [true; 2]
+        };
+        let of = |attachment: &AttachmentScene| {
+            let (cable, body) = (&self.cables[attachment.cable].name, attachment.body?);
+            let (name, cable, of) = (attachment.name.clone(), cable.clone(), self.bodies[body].name.clone());
+            mixed(body).then_some(Warning::MixedJoints { attachment: name, cable, body: of })
+        };
+        self.attachments.iter().filter_map(of).collect()
     }
 
     /// Returns a warning for each force beyond the axial stiffness of its cable.

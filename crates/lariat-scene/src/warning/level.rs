@@ -19,6 +19,7 @@ impl Warning {
             | Warning::DrawnCorner { .. }
             | Warning::ThickContact { .. }
             | Warning::FarAnchor { .. }
+            | Warning::MixedJoints { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
             | Warning::LightWater { .. }
@@ -56,6 +57,8 @@ impl Warning {
             | Warning::DrawnCorner { cable, .. }
             | Warning::ThickContact { cable, .. }
             | Warning::AddedMassInAir { cable, .. }
+            | Warning::FarAnchor { cable, .. }
+            | Warning::MixedJoints { cable, .. }
             | Warning::LargeLoad { cable, .. } => Some(cable),
             Warning::FallsFreely { .. }
             | Warning::SheaveStopped { .. }
@@ -67,7 +70,6 @@ impl Warning {
             | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::LeftAsDrawn { .. }
-            | Warning::FarAnchor { .. }
             | Warning::LargeInWaves { .. }
             | Warning::LightWater { .. }
             | Warning::FarFromOrigin { .. }
@@ -86,7 +88,7 @@ impl Judged for Warning {
         Some(match self {
             Warning::Cable(warning) => return warning.sign(),
             Warning::StartsInside { .. } => Sign::Inside,
-            Warning::OpenGap { .. } => Sign::Gap,
+            Warning::OpenGap { .. } | Warning::FarAnchor { .. } => Sign::Gap,
             Warning::VelocityJump { .. } => Sign::Shock,
             Warning::DrawnCorner { .. } => Sign::Corner,
             Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
@@ -106,7 +108,7 @@ impl Judged for Warning {
             | Warning::RankDeficient { .. }
             | Warning::UnstableEquilibrium { .. }
             | Warning::LeftAsDrawn { .. }
-            | Warning::FarAnchor { .. }
+            | Warning::MixedJoints { .. }
             | Warning::LargeInWaves { .. }
             | Warning::LightWater { .. }
             | Warning::AddedMassInAir { .. }
@@ -162,7 +164,8 @@ impl Judged for Warning {
             | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }
             | Warning::RankDeficient { .. }
-            | Warning::LeftAsDrawn { .. } => 0.0,
+            | Warning::LeftAsDrawn { .. }
+            | Warning::MixedJoints { .. } => 0.0,
         }
     }
 }

@@ -86,7 +86,7 @@ pub enum Warning {
     /// An attachment to a body on joints that did not move as predicted for a second, or whose joints came apart.
     #[error(
         "attachment {attachment:?}: the joints of its body did not hold it as predicted: {}; do not trust its position and the forces of its cables: take a \
-         shorter `dt`, more iterations or a multibody, weld links into one body, or keep heavy links away from light ones", unsettled(*.time_s, *.steps, *.force, *.gap_m)
+         shorter `dt`, more iterations or a multibody, weld links into one body, or keep heavy links away from light ones", unsettled([*.time_s, *.steps, *.force, *.gap_m], *.foreseen)
     )]
     Unsettled {
         /// Name of the attachment.
@@ -104,6 +104,9 @@ pub enum Warning {
         /// Distance in m by which a joint of the body came apart; 0 where all of them hold.
         #[serde(default)]
         gap_m: f64,
+        /// Whether that is what it is to open by, from what it carries, and has not shown yet.
+        #[serde(default)]
+        foreseen: bool,
     },
     /// A sheave that a point of its cable stopped.
     #[error(
@@ -380,12 +383,28 @@ pub enum Warning {
     FarAnchor {
         /// Name of the attachment.
         attachment: String,
+        /// Name of its cable.
+        #[serde(default)]
+        cable: String,
         /// Name of the body.
         body: String,
         /// Distance of the anchor from the origin of the body in m.
         distance_m: f64,
         /// Radius of a sphere about the origin that holds the shape in m.
         radius_m: f64,
+    },
+    /// A body that moves with others by impulse joints and by those of a multibody at once.
+    #[error(
+        "attachment {attachment:?}: the body {body:?} moves with others by joints with `multibody` and by some without, and how such bodies answer a cable is not predicted: \
+         its motion and forces may be far off; give all joints that connect them the same `multibody`"
+    )]
+    MixedJoints {
+        /// Name of the attachment.
+        attachment: String,
+        /// Name of its cable.
+        cable: String,
+        /// Name of the body.
+        body: String,
     },
     /// A force that strains the cable beyond its law.
     #[error(
@@ -464,8 +483,8 @@ fn until(horizon: Option<f64>, estimate: Option<f64>) -> String {
     estimate.map_or(horizon.clone(), |estimate| format!("{horizon} (estimate {estimate:.1e} m)"))
 }
 
-fn unsettled(time_s: f64, steps: f64, force: f64, gap_m: f64) -> String {
-    lariat_rapier::Unsettled::new(time_s, steps, force, gap_m).text()
+fn unsettled([time_s, steps, force, gap_m]: [f64; 4], foreseen: bool) -> String {
+    lariat_rapier::Unsettled::new(time_s, steps, force).with_gap(gap_m, foreseen).text()
 }
 
 fn would_need(elements: Option<usize>) -> String {
