@@ -1,5 +1,6 @@
 //! Attachments: entities that connect a point of a cable to a point of a body.
 
+use crate::error::Error;
 use crate::pending::Pending;
 use bevy_ecs::bundle::Bundle;
 use bevy_ecs::component::Component;
@@ -161,9 +162,17 @@ pub struct ToBody(pub Entity);
 #[relationship_target(relationship = ToBody)]
 pub struct BodyAttachments(Vec<Entity>);
 
-/// The force in N above which an attachment breaks, compared after each host step.
+/// The force in N above which an attachment breaks, compared after each host step; one that is not
+/// above 0 makes the attachment fail.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BreakForce(pub f64);
+
+impl BreakForce {
+    /// Refuses what is not positive.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        (self.0 > 0.0).then_some(()).ok_or(Error::BreakForce(self.0))
+    }
+}
 
 /// Force, moment, gap and work of an attachment after the last host step.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

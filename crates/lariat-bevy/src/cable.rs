@@ -10,7 +10,7 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::name::Name;
 use bevy_ecs::world::DeferredWorld;
-use lariat_ancf::{Fidelity, Point, Section};
+use lariat_ancf::{At, Fidelity, Point, Section};
 use serde::{Deserialize, Serialize};
 
 /// The description of a cable. Spawn it with its rule and effects as components beside it;
@@ -94,6 +94,14 @@ impl Cable {
     /// Sets the number of elements. Default 10.
     pub fn elements(mut self, elements: usize) -> Self {
         self.0.elements = elements;
+        self
+    }
+
+    /// Grades the mesh: elements at these points have this length in m at most, and the others grow
+    /// from there, up to the [number](Self::elements) of elements, as
+    /// [`CableBuilder::finest`](lariat_ancf::CableBuilder::finest) says.
+    pub fn finest<A: Into<At>>(mut self, length: f64, at: impl IntoIterator<Item = A>) -> Self {
+        self.0.finest = Some((length, at.into_iter().map(Into::into).collect()));
         self
     }
 

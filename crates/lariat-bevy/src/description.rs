@@ -30,6 +30,9 @@ pub(crate) struct Description {
     /// What fixes the length instead.
     pub span: Option<Span>,
     pub elements: usize,
+    /// Length in m of the finest elements, and the points where they are.
+    #[serde(default)]
+    pub finest: Option<(f64, Vec<At>)>,
     /// Arc lengths in m of nodes.
     pub nodes_at: Vec<f64>,
     /// Whether it starts in static equilibrium between its ends.
@@ -50,6 +53,7 @@ impl Description {
             length: None,
             span: None,
             elements: 10,
+            finest: None,
             nodes_at: Vec::new(),
             hanging: false,
             integrator: Fidelity::Game,
@@ -89,6 +93,9 @@ impl Description {
             builder = builder.length(length);
         }
         builder = self.nodes_at.iter().fold(builder, |builder, &s| builder.node_at(s));
+        if let Some((length, at)) = &self.finest {
+            builder = builder.finest(*length, at.iter().copied());
+        }
         if let Some(gravity) = self.gravity {
             builder = builder.gravity(gravity);
         }

@@ -25,6 +25,9 @@ pub enum Error {
     /// An attachment to an entity without a body.
     #[error("entity {0} has no body")]
     NotABody(Entity),
+    /// A [`BreakForce`](crate::BreakForce) that is not positive.
+    #[error("the force at which an attachment breaks is {0} N: must be > 0")]
+    BreakForce(f64),
     /// An entity without a [`Sheave`](crate::Sheave) over which a cable runs.
     #[error("entity {0} has no sheave over which a cable runs")]
     NotASheave(Entity),

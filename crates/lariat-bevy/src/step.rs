@@ -9,11 +9,13 @@ use crate::schedule::RapierStep;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::prelude::ResMut;
 use bevy_ecs::world::World;
+use lariat_ancf::warning::Interface;
 use lariat_rapier::HostStep;
 
 /// Begins a host step.
 pub(crate) fn begin(mut cables: ResMut<Cables>, mut physics: ResMut<Physics>, mut diagnostics: ResMut<Diagnostics>) {
     diagnostics.host_steps += 1;
+    cables.set.set_interface(Interface::Bevy);
     match cables.set.begin(&mut physics) {
         Ok(host) => cables.host = Some(host),
         Err(error) => report(&mut cables, error),

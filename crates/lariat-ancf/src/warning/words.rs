@@ -1,7 +1,7 @@
 //! The names that a warning has for what a user sets, in the interface that the user writes.
 //!
 //! The text of a warning names them as Rust does, in backticks: `elements(24)`. The table `NAMES`
-//! says how scenes and Python write each, and [`Interface::text`] puts that in their place: a text
+//! says how scenes, Python and Bevy write each, and [`Interface::text`] puts that in their place: a text
 //! is written once.
 //!
 //! # Alternatives considered
@@ -12,48 +12,58 @@
 use core::fmt;
 
 /// What a user writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Interface {
     /// Programs in Rust, as the texts of warnings are by themselves.
+    #[default]
     Rust,
     /// Scene files.
     Scene,
     /// Programs in Python.
     Python,
+    /// Components and resources of Bevy.
+    Bevy,
 }
 
-/// By the name in Rust, without arguments, those of scenes and of Python: `{0}` is the first
+/// By the name in Rust, without arguments, those of scenes, of Python and of Bevy: `{0}` is the first
 /// argument.
-const NAMES: [(&str, [&str; 2]); 16] = [
-    ("elements", ["elements = {0}", "elements={0}"]),
+const NAMES: [(&str, [&str; 3]); 16] = [
+    ("elements", ["elements = {0}", "elements={0}", "elements({0})"]),
     (
         "elements.finest",
-        ["elements = { count = {0}, finest = {1}, at = {2} }", "elements={0}, finest={1}, finest_at={2}"],
+        [
+            "elements = { count = {0}, finest = {1}, at = {2} }",
+            "elements={0}, finest={1}, finest_at={2}",
+            "elements({0}).finest({1}, {2})",
+        ],
     ),
-    ("Fidelity::Game", ["fidelity = \"game\"", "fidelity=\"game\""]),
-    ("StepControl::MaxStep", ["integrator.max_step = {0}", "Integrator(max_step={0})"]),
-    ("StepControl::Tolerance", ["integrator.tolerance", "Integrator(tolerance=...)"]),
-    ("GravityScale", ["gravity_scale = {0}", "GravityScale({0})"]),
-    ("Contact", ["contact", "lariat.Contact"]),
-    ("Contact::stiffness", ["contact.stiffness", "Contact(stiffness=...)"]),
-    ("AxialLaw::Hooke", ["axial_law = \"hooke\"", "AxialLaw(\"hooke\")"]),
-    ("AxialLaw::Green", ["axial_law = \"green\"", "AxialLaw(\"green\")"]),
-    ("CableBuilder::damped_as", ["damping = { rope = \"wire-rope\" }", "Cable(damped_as=...)"]),
-    ("Strength", ["break", "set_strength"]),
-    ("CableSet::add_kink", ["kinks", "World.add_kink"]),
-    ("CableSet::move_bodies", ["a motion without jumps", "World.move_bodies"]),
-    ("equilibrium_among", ["initial = \"equilibrium\"", "World.equilibrium"]),
-    ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)"]),
+    ("Fidelity::Game", ["fidelity = \"game\"", "fidelity=\"game\"", "Fidelity::Game"]),
+    ("StepControl::MaxStep", ["integrator.max_step = {0}", "Integrator(max_step={0})", "StepControl::MaxStep({0})"]),
+    ("StepControl::Tolerance", ["integrator.tolerance", "Integrator(tolerance=...)", "StepControl::Tolerance"]),
+    ("GravityScale", ["gravity_scale = {0}", "GravityScale({0})", "GravityScale::new({0})"]),
+    ("Contact", ["contact", "lariat.Contact", "Contact"]),
+    ("Contact::stiffness", ["contact.stiffness", "Contact(stiffness=...)", "Contact::stiffness"]),
+    ("AxialLaw::Hooke", ["axial_law = \"hooke\"", "AxialLaw(\"hooke\")", "AxialLaw::hooke()"]),
+    ("AxialLaw::Green", ["axial_law = \"green\"", "AxialLaw(\"green\")", "AxialLaw::green()"]),
+    (
+        "CableBuilder::damped_as",
+        ["damping = { rope = \"wire-rope\" }", "Cable(damped_as=...)", "Damping::critical_fraction"],
+    ),
+    ("Strength", ["break", "set_strength", "BreakTension"]),
+    ("CableSet::add_kink", ["kinks", "World.add_kink", "KinkAlong"]),
+    ("CableSet::move_bodies", ["a motion without jumps", "World.move_bodies", "Cables::move_bodies"]),
+    ("equilibrium_among", ["initial = \"equilibrium\"", "World.equilibrium", "Cables::equilibrium"]),
+    ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)", "Settings::rapier_steps"]),
 ];
 
-/// By what Rust writes for a point of a cable, what scenes and Python do.
-const POINTS: [(&str, [&str; 2]); 5] = [
-    ("At::Start", ["\"start\"", "\"start\""]),
-    ("At::End", ["\"end\"", "\"end\""]),
-    ("At::ArcLength(", ["", ""]),
-    ("At::Node(", ["node ", ""]),
-    (")", ["", ""]),
+/// By what Rust writes for a point of a cable, what scenes, Python and Bevy do.
+const POINTS: [(&str, [&str; 3]); 5] = [
+    ("At::Start", ["\"start\"", "\"start\"", "At::Start"]),
+    ("At::End", ["\"end\"", "\"end\"", "At::End"]),
+    ("At::ArcLength(", ["", "", "At::ArcLength("]),
+    ("At::Node(", ["node ", "", "At::Node("]),
+    (")", ["", "", ")"]),
 ];
 
 impl Interface {
@@ -64,6 +74,7 @@ impl Interface {
             Interface::Rust => return text,
             Interface::Scene => 0,
             Interface::Python => 1,
+            Interface::Bevy => 2,
         };
         let mut rest = text.as_str();
         let mut translated = String::new();
@@ -148,6 +159,7 @@ mod tests {
             (Interface::Rust, "`elements(7)`"),
             (Interface::Scene, "`elements = 7`"),
             (Interface::Python, "`elements=7`"),
+            (Interface::Bevy, "`elements(7)`"),
         ] {
             let text = interface.text(&coarse);
             assert!(text.ends_with(wanted) && text.matches('`').count() == 5, "{text}");

@@ -1,6 +1,6 @@
 //! Attachments that were spawned, changed, or lost their cable or body.
 
-use crate::attachment::{Attached, Attachment, NotAttachable, OnCable, ToBody};
+use crate::attachment::{Attached, Attachment, BreakForce, NotAttachable, OnCable, ToBody};
 use crate::body::BodyHandle;
 use crate::cables::Cables;
 use crate::error::Error;
@@ -23,6 +23,7 @@ type Components = (
     Option<Ref<'static, OnCable>>,
     Option<Ref<'static, ToBody>>,
     Option<&'static Attached>,
+    Option<&'static BreakForce>,
     Has<NotAttachable>,
 );
 
@@ -37,7 +38,7 @@ pub(crate) fn update(
 ) {
     let cables = &mut *cables;
     let new_cables = core::mem::take(&mut pending.new_cables);
-    for (entity, attachment, on, to, attached, failed) in &attachments {
+    for (entity, attachment, on, to, attached, limit, failed) in &attachments {
         let changed = attachment.is_changed()
             || on.as_ref().is_some_and(|on| pending.has_changed(entity, Watched::OnCable, on))
             || to.as_ref().is_some_and(|to| pending.has_changed(entity, Watched::ToBody, to))
@@ -75,7 +76,8 @@ pub(crate) fn update(
             continue;
         }
         let Some(cable) = on.map(|on| on.0) else { continue };
-        match attach(cables, &mut physics, &handles, &attachment, entity, cable, body) {
+        let checked = limit.map_or(Ok(()), BreakForce::check);
+        match checked.and_then(|()| attach(cables, &mut physics, &handles, &attachment, entity, cable, body)) {
             Ok(handle) => {
                 commands.entity(entity).insert(Attached(handle)).remove::<NotAttachable>();
             }

@@ -5,8 +5,8 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
 use core::cell::RefCell;
 use lariat_bevy::{
-    At, Attachment, Bending, BreakTension, Cable, CableStep, Contact, Drag, Drum, Gap, Junction, Physics, RapierStep,
-    Reel, Rope, Section, SpawnRope, Torsion, lariat_ancf,
+    At, Attachment, Bending, BreakForce, BreakTension, Cable, CableStep, Contact, Drag, Drum, Gap, Junction, Physics,
+    RapierStep, Reel, Rope, Section, SpawnRope, Torsion, lariat_ancf,
 };
 
 thread_local! {
@@ -144,7 +144,47 @@ const MISTAKES: &[Mistake] = &[
         |world| hung(world, (steel(), Torsion(lariat_ancf::Torsion::new(0.01)))),
         &["its torsion does nothing", "clamp it at both ends"],
     ),
+    (
+        "damping in percent",
+        |world| hung(world, (steel(), lariat_bevy::Damping::time(2.0))),
+        &["its axial damping is 2 s", "`Damping::critical_fraction`"],
+    ),
+    (
+        "a length unit of centimetres",
+        |world| {
+            world.resource_mut::<Physics>().integration_parameters.length_unit = 100.0;
+            hung(world, steel());
+        },
+        &["`length_unit` is 100"],
+    ),
+    (
+        "a drum of no axis",
+        |world| {
+            let drum = world.spawn(cube(0.2, 50.0, [1.0, 0.0, 0.0])).id();
+            hung(world, (steel(), Drum::at_start(drum, [0.0; 3], 0.2)));
+        },
+        &["DrumFailed", "axis of a drum is 0: must be finite and > 0"],
+    ),
+    (
+        "a force that nothing bears",
+        |world| {
+            let [rope, load] = above(world, steel());
+            world.spawn((Attachment::ball(rope, At::End).to(load), BreakForce(f64::NAN)));
+        },
+        &["AttachmentFailed", "breaks is NaN N: must be > 0"],
+    ),
     // places, and what is attached to what
+    (
+        "a crate that is set elsewhere",
+        |world| {
+            hung(world, steel());
+            steps(world, 5);
+            let mut crates = world.query::<&lariat_bevy::BodyHandle>();
+            let crate_of = crates.iter(world).last().unwrap().handle();
+            world.resource_mut::<Physics>().bodies[crate_of].set_translation([3.0, 0.0, 0.0].into(), true);
+        },
+        &["off the anchor of an attachment", "`Cables::move_bodies`"],
+    ),
     (
         "an attachment behind the end",
         |world| tied(world, |rope, load| Attachment::ball(rope, 7.0).to(load)),

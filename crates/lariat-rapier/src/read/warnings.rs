@@ -22,6 +22,7 @@ use crate::scales::HOST_ROUNDING;
 use crate::scales::read::{FAR_ANCHOR, JOLT};
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::warning::Interface;
 use lariat_ancf::warning::fold::{self, Judged, Sign};
 use lariat_ancf::{Cable, Level};
 use rapier::dynamics::RigidBodyType;
@@ -255,10 +256,7 @@ pub(crate) fn told(contents: &Contents, world: &PhysicsWorld, asked: Option<Leve
 /// Returns all warnings about the cables of a set.
 fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let unit = f64::from(world.integration_parameters.length_unit);
-    if unit != 1.0 {
-        warnings.push(Warning::LengthUnit { unit });
-    }
+    warnings.extend(length_unit(world));
     for (cable, slot) in contents.cables.iter() {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
@@ -275,6 +273,12 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         }
     }
     warnings
+}
+
+/// Returns whether a world is in another unit than m.
+fn length_unit(world: &PhysicsWorld) -> Option<Warning> {
+    let unit = f64::from(world.integration_parameters.length_unit);
+    (unit != 1.0).then_some(Warning::LengthUnit { unit })
 }
 
 /// Returns what is to be said about a cable where it is, before it is stepped.
@@ -380,17 +384,20 @@ fn mixed_joints(
 
 /// Logs, before a host step, what is wrong with how cables and attachments begin that have not been
 /// stepped: where they lie and how they move is what the user gave. Chooses what is read of cables
-/// by the level that is `asked` for.
-pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, asked: Option<Level>) {
+/// by the level that is `asked` for, and their names by the `interface`.
+pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, (asked, interface): (Option<Level>, Interface)) {
     for index in 0..contents.cables.len() {
         let Some(slot) = contents.cables.get_mut(index).filter(|slot| slot.cable.is_watched()) else { continue };
         slot.cable.watch_up_to(asked.unwrap_or_else(|| slot.cable.warn_level()));
         if core::mem::replace(&mut slot.introduced, true) {
             continue;
         }
+        if let Some(warning) = length_unit(world).filter(|_| index == 0) {
+            log::warn!("{}", interface.text(&warning));
+        }
         if let Some(slot) = contents.cables.get(index) {
             let warnings = at_start(contents, world, CableHandle(index as u32), slot);
-            warnings.iter().for_each(|warning| log::warn!("{warning}"));
+            warnings.iter().for_each(|warning| log::warn!("{}", interface.text(warning)));
         }
     }
     for index in 0..contents.attachments.len() {
@@ -399,13 +406,18 @@ pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, asked: Op
         let is_watched = contents.cable(own.cable).is_ok_and(Cable::is_watched);
         let of = [of_attachment, far_anchor, mixed_joints]
             .map(|of| of(contents, AttachmentHandle(index as u32), own, world));
-        of.iter().flatten().filter(|_| is_watched).for_each(|warning| log::warn!("{warning}"));
+        of.iter().flatten().filter(|_| is_watched).for_each(|warning| log::warn!("{}", interface.text(warning)));
     }
 }
 
 /// Reads the cables at the end of a host step, and tells them first whether nothing else acts on
 /// them and by how much what holds them was rounded; what is new is an event.
-pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, asked: Option<Level>, events: &mut Vec<Event>) {
+pub(crate) fn note(
+    contents: &mut Contents,
+    world: &PhysicsWorld,
+    (asked, interface): (Option<Level>, Interface),
+    events: &mut Vec<Event>,
+) {
     let dt = f64::from(world.integration_parameters.dt);
     let Contents { cables, attachments, junctions, sheaves, drums, records, .. } = contents;
     for slot in cables.values_mut() {
@@ -431,13 +443,15 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, asked: Option<
         slot.parted |= attachment.watch.open(slot.cable.length()).is_some();
         if let Some(gap) = opened.filter(|_| slot.cable.is_watched()) {
             let attachment = AttachmentHandle(index as u32);
-            log::warn!("{}", Warning::OpenGap { attachment, name: slot.cable.name().to_string(), gap });
+            let warning = Warning::OpenGap { attachment, name: slot.cable.name().to_string(), gap };
+            log::warn!("{}", interface.text(&warning));
             events.push(Event::GapOpened { attachment, gap });
         }
         let how = records.get(attachment.body).and_then(|record| record.settling.due());
         if let Some(how) = how.filter(|_| slot.cable.is_watched()) {
             let attachment = AttachmentHandle(index as u32);
-            log::warn!("{}", Warning::Unsettled { attachment, name: slot.cable.name().to_string(), how });
+            let warning = Warning::Unsettled { attachment, name: slot.cable.name().to_string(), how };
+            log::warn!("{}", interface.text(&warning));
             events.push(Event::Unsettled { attachment, how });
         }
     }
@@ -449,7 +463,7 @@ pub(crate) fn note(contents: &mut Contents, world: &PhysicsWorld, asked: Option<
         let (most, parted) = (asked.unwrap_or_else(|| slot.cable.warn_level()), slot.parted);
         slot.cable.note_host_step(slot.alone, |warning| {
             if warning.level() <= most && !(parted && fold::explains(Sign::Gap, &warning)) {
-                log::warn!("{warning}");
+                log::warn!("{}", interface.text(&warning));
                 events.push(Event::Warning { cable, warning });
             }
         });

@@ -31,6 +31,7 @@ use crate::statics::{self, BodyForce, Equilibrium};
 use crate::step::Stepper;
 use crate::step::settings::Settings;
 use lariat_ancf::coupling::Coupling;
+use lariat_ancf::warning::Interface;
 use lariat_ancf::{At, Cable, EquilibriumOptions, EquilibriumReport, Strength};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
@@ -67,12 +68,21 @@ pub struct CableSet {
     pub(crate) contents: Contents,
     #[serde(skip)]
     pub(crate) stepper: Stepper,
+    /// Whose names the log has.
+    #[serde(skip)]
+    pub(crate) interface: Interface,
 }
 
 impl CableSet {
     /// Returns an empty set.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Lets the log name what a user sets as this interface does, for those who wrap the set. Default
+    /// and after loading: Rust.
+    pub fn set_interface(&mut self, interface: Interface) {
+        self.interface = interface;
     }
 
     /// Adds a cable; its clock is set to that of the others. If its gravity is the builder's

@@ -56,7 +56,7 @@ impl CableSet {
         slack::draw_all_outside(&mut self.contents, world)?;
         let host = step::begin(&mut self.stepper, &mut self.contents, world, &self.settings)?;
         if host.is_unfinished() {
-            warnings::introduce(&mut self.contents, world, self.settings.warn_level);
+            warnings::introduce(&mut self.contents, world, (self.settings.warn_level, self.interface));
         }
         Ok(host)
     }
@@ -85,7 +85,8 @@ impl CableSet {
         step::finish(&mut self.stepper, &mut self.contents, world, host);
         if is_complete {
             contact::events::compare(&mut self.contents, &mut self.stepper.events);
-            warnings::note(&mut self.contents, world, self.settings.warn_level, &mut self.stepper.events);
+            let told = (self.settings.warn_level, self.interface);
+            warnings::note(&mut self.contents, world, told, &mut self.stepper.events);
             breaking::break_overloaded(&mut self.contents, &mut self.stepper.events);
         }
         self.failures().first().map_or(Ok(()), |failure| Err(failure.error.clone()))

@@ -52,6 +52,7 @@ pub(crate) fn update(
     (h, speed): (f64, f64),
     events: &mut Vec<Event>,
 ) -> SleepState {
+    wake_what_rapier_steps(contents, world, island);
     let count = island.bodies().count();
     let sleeping = island.bodies().filter(|&b| world.bodies[b].is_sleeping()).count();
     let mut disturbed = ends_moved;
@@ -78,6 +79,20 @@ pub(crate) fn update(
         }
     }
     SleepState { asleep, disturbed }
+}
+
+/// Wakes bodies that a program put to sleep by hand, and that are among those that Rapier steps:
+/// they fall asleep within its step, if they may.
+fn wake_what_rapier_steps(contents: &Contents, world: &mut PhysicsWorld, island: &Island) {
+    let is_awake = |&c: &usize| contents.cables.get(c).is_some_and(|slot| !slot.asleep);
+    if !island.cables.iter().any(is_awake) {
+        return;
+    }
+    for handle in island.bodies() {
+        if world.bodies[handle].is_sleeping() && world.islands.active_bodies().any(|active| active == handle) {
+            world.bodies[handle].wake_up(false);
+        }
+    }
 }
 
 /// Forgets the forces that hold sleeping bodies: the island is predicted.

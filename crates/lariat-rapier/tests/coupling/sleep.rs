@@ -380,3 +380,25 @@ fn what_changes_by_itself_wakes_a_load() {
         assert!(off < 1e-3, "{what}: {off:.1e} m");
     }
 }
+
+/// A body that a program puts to sleep by hand, at any time, is stepped on, asleep or awake.
+#[test]
+fn a_body_that_is_put_to_sleep_by_hand_is_stepped() {
+    for steps in [1, 2, 3, 5, 8, 20, 60] {
+        for still in [false, true] {
+            let mut world = PhysicsWorld::new();
+            let mut set = CableSet::new();
+            let cube = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
+            let rope = cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).build().unwrap();
+            let rope = set.insert(rope);
+            set.attach(&world, rope, At::End, cube, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+            for step in 0..steps + 30 {
+                if step == steps || still && step > steps {
+                    world.bodies[cube].sleep();
+                }
+                set.step(&mut world).unwrap();
+            }
+            assert!(world.bodies[cube].translation().is_finite());
+        }
+    }
+}

@@ -60,6 +60,20 @@ impl Drum {
     }
 }
 
+impl Drum {
+    /// Checks its numbers.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a radius that is not positive, and for an axis that is no
+    /// direction.
+    pub fn check(&self) -> Result<(), Error> {
+        let length = self.axis.norm();
+        require("radius of a drum (m)", self.radius, self.radius > 0.0, "> 0")?;
+        require("length of the axis of a drum", length, length > 0.0, "> 0")?;
+        require("length of the axis of a drum", length, (length - 1.0).abs() < 1e-6, "1")
+    }
+}
+
 /// Checks that drums fit the cables and bodies of an island, and that each end on a drum has one.
 pub(super) fn check(
     cables: &[&mut Cable],
@@ -76,10 +90,7 @@ pub(super) fn check(
             }
         }
         let own = &cables[cable];
-        let length = drum.axis.norm();
-        require("radius of a drum (m)", drum.radius, drum.radius > 0.0, "> 0").map_err(|e| e.of_cable(own.name()))?;
-        require("length of the axis of a drum", length, (length - 1.0).abs() < 1e-6, "1")
-            .map_err(|e| e.of_cable(own.name()))?;
+        drum.check().map_err(|e| e.of_cable(own.name()))?;
         if own.model.reels.get(side).is_none_or(|reel| reel.feed != Feed::BodyDrum) {
             return refused(own, "its end on a drum has no Reel::on_drum");
         }

@@ -11,6 +11,23 @@ use crate::scales::SAME;
 use crate::scales::reel::GAP;
 use crate::system::Sheave;
 
+impl Sheave {
+    /// Checks its numbers.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for one that is negative, or is none.
+    pub fn check(&self) -> Result<(), Error> {
+        let numbers = [
+            ("inertia of a sheave (kg)", self.inertia),
+            ("friction of a sheave", self.friction),
+            ("turns of a sheave (rad)", self.turns),
+            ("brake of a sheave (N)", self.brake),
+            ("radius of a sheave (m)", self.radius),
+        ];
+        numbers.into_iter().try_for_each(|(what, value)| require(what, value, value >= 0.0, ">= 0"))
+    }
+}
+
 /// Checks that sheaves fit the cables of an island, and that each end at a sheave has one.
 pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Error> {
     let refused = |cable: &Cable, reason| Err(Error::ReelPlace { cable: cable.name().to_string(), reason });
@@ -22,15 +39,7 @@ pub(super) fn check(cables: &[&mut Cable], sheaves: &[Sheave]) -> Result<(), Err
             }
         }
         let [a, b] = ends.map(|(cable, _)| &cables[cable]);
-        for (what, value) in [
-            ("inertia of a sheave (kg)", sheave.inertia),
-            ("friction of a sheave", sheave.friction),
-            ("turns of a sheave (rad)", sheave.turns),
-            ("brake of a sheave (N)", sheave.brake),
-            ("radius of a sheave (m)", sheave.radius),
-        ] {
-            require(what, value, value >= 0.0, ">= 0").map_err(|e| e.of_cable(a.name()))?;
-        }
+        sheave.check().map_err(|e| e.of_cable(a.name()))?;
         let ends_of = |other: &Sheave| other.ends();
         let taken = sheaves[..i].iter().flat_map(ends_of).any(|end| ends.contains(&end));
         if taken || ends[0] == ends[1] {

@@ -22,6 +22,14 @@ pub struct Drum {
     pub radius: Real,
 }
 
+impl Drum {
+    /// Returns it for an island, with a cable, whether by its start, and a body at their indices.
+    pub(crate) fn winch(&self, cable: (usize, bool), body: usize) -> Winch {
+        let axis = vector(self.axis).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        Winch { cable, body, axis, radius: f64::from(self.radius) }
+    }
+}
+
 /// A drum, and the end of the cable on it.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Wound {
@@ -40,7 +48,6 @@ impl Wound {
     /// Returns it for an island with these cables and, at an index, its body.
     pub fn within(&self, cables: &[usize], body: usize) -> Option<Winch> {
         let cable = cables.iter().position(|&c| c == self.cable.0 as usize)?;
-        let axis = vector(self.drum.axis).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
-        Some(Winch { cable: (cable, self.start), body, axis, radius: f64::from(self.drum.radius) })
+        Some(self.drum.winch((cable, self.start), body))
     }
 }

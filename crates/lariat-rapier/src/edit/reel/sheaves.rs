@@ -16,6 +16,11 @@ pub(crate) fn add(
     options: SheaveOptions,
 ) -> Result<SheaveHandle, Error> {
     let ends = [(from.0, contents.is_start(from.0, from.1)?), (to.0, contents.is_start(to.0, to.1)?)];
+    let mut wheel = Wheel::new((0, At::End), (0, At::Start));
+    let SheaveOptions { inertia, friction, turns, brake, radius, along } = options;
+    (wheel.inertia, wheel.friction, wheel.turns, wheel.brake) = (inertia, friction, turns, brake);
+    wheel.radius = radius;
+    wheel.check()?;
     for (i, (cable, at)) in [from, to].into_iter().enumerate() {
         if let Err(error) = contents.cable_mut(cable)?.add_reel(at, Reel::over_sheave()) {
             if i == 1 {
@@ -24,10 +29,6 @@ pub(crate) fn add(
             return Err(error.into());
         }
     }
-    let mut wheel = Wheel::new((0, At::End), (0, At::Start));
-    let SheaveOptions { inertia, friction, turns, brake, radius, along } = options;
-    (wheel.inertia, wheel.friction, wheel.turns, wheel.brake) = (inertia, friction, turns, brake);
-    wheel.radius = radius;
     contents.changed = true;
     let sheave = SheaveHandle(contents.sheaves.push(Sheave { ends, wheel, along }) as u32);
     beyond::count(contents);

@@ -33,6 +33,7 @@ impl CableSet {
         if !body.is_dynamic() {
             return Err(Error::DrumBody(drum.body));
         }
+        drum.winch((0, true), 0).check()?;
         let reel = Reel { feed: Reel::on_drum().feed, ..reel };
         let start = self.contents.is_start(cable, at)?;
         self.contents.cable_mut(cable)?.add_reel(at, reel)?;
