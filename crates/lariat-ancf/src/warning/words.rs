@@ -1,8 +1,8 @@
 //! The names that a warning has for what a user sets, in the interface that the user writes.
 //!
 //! The text of a warning names them as Rust does, in backticks: `elements(24)`. The table `NAMES`
-//! says how scenes, Python and Bevy write each, and [`Interface::text`] puts that in their place: a text
-//! is written once.
+//! says how scenes, Python and Bevy write each, and [`Interface::text`] puts that in their place: a
+//! text is written once.
 //!
 //! # Alternatives considered
 //!
@@ -26,8 +26,8 @@ pub enum Interface {
     Bevy,
 }
 
-/// By the name in Rust, without arguments, those of scenes, of Python and of Bevy: `{0}` is the first
-/// argument.
+/// By the name in Rust, without arguments, those of scenes, of Python and of Bevy: `{0}` is the
+/// first argument.
 const NAMES: [(&str, [&str; 3]); 16] = [
     ("elements", ["elements = {0}", "elements={0}", "elements({0})"]),
     (

@@ -79,8 +79,8 @@ impl CableSet {
         Self::default()
     }
 
-    /// Lets the log name what a user sets as this interface does, for those who wrap the set. Default
-    /// and after loading: Rust.
+    /// Lets the log name what a user sets as this interface does, for those who wrap the set.
+    /// Default and after loading: Rust.
     pub fn set_interface(&mut self, interface: Interface) {
         self.interface = interface;
     }
