@@ -292,6 +292,36 @@ fn a_cable_with_contact_and_a_reel_is_judged() {
     }
 }
 
+/// A winch that sets a crate down on the ground, and goes on, by a rope without contact: no energy is made, at any speed, host step and fidelity.
+///
+/// *Source.* The energy law of the discrete gradient.
+#[test]
+fn a_winch_that_sets_a_load_down_makes_no_energy() {
+    for (mass, rate, dt, fidelity) in [
+        (10.0, 0.6, 1.0 / 60.0, "game"),
+        (10.0, 2.0, 1.0 / 30.0, "game"),
+        (3.0, 1.1, 1.0 / 120.0, "game"),
+        (75.0, 1.4, 1.0 / 60.0, "game"),
+        (10.0, 2.0, 1.0 / 60.0, "engineering"),
+    ] {
+        let end = 2.2 / rate;
+        let text = format!(
+            "duration = {:?}\ndt = {dt:?}\n[[body]]\nname = \"ground\"\nkind = \"fixed\"\nshape = {{ plane = [0.0, 1.0, 0.0] }}\n\
+             position = [0.0, -3.0, 0.0]\n[[body]]\nname = \"load\"\nshape = {{ cuboid = [0.1, 0.1, 0.1] }}\nmass = {mass:?}\n\
+             position = [0.0, -2.1, 0.0]\n[[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [0.0, -2.0, 0.0]]\nelements = 20\n\
+             axial_stiffness = 2.0e5\nbending_stiffness = 0.05\nmass_per_length = 0.1\nintegrator = {{ fidelity = \"{fidelity}\" }}\n\
+             damping = {{ axial = 0.005, bending = 0.03 }}\nreel = {{ end = \"start\", rate = [[0.0, {rate:?}], [{end:?}, 0.0]], acceleration = 4.0 }}\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\nanchor = [0.0, 0.1, 0.0]\n",
+            end + 0.3
+        );
+        let (_, balance) = execute(&Scene::parse("set_down.toml", &text, &[], Purpose::Run).unwrap());
+        let fallen = mass * 9.81 * 0.8;
+        assert!(balance.scale_j > 0.8 * fallen && balance.scale_j < 4.0 * fallen, "{mass} {rate} {balance:?}");
+        assert!(balance.made() < 1e-3, "{mass} kg, {rate} m/s, {dt} s, {fidelity}: {balance:?}");
+    }
+}
+
 /// A winch on a kinematic body that moves: body and winch do work, and what is wound up takes momentum along. The strain rate of the element at the
 /// eye depends on the time. The load is let go at once and swings on the rope, so that the quadrature of the force at the eye shows: an eighth of the
 /// host step errs by a fiftieth.

@@ -28,6 +28,8 @@ pub struct BodyTerms {
     pub in_law: bool,
     /// True if nothing but cables, gravity and loads moves it.
     pub free: bool,
+    /// Whether a collider is near one of its own.
+    pub near: bool,
 }
 
 /// Centre of mass (m), rotation, and force (N) and moment (N m) of the loads on a body.
@@ -92,7 +94,8 @@ impl Physics {
             let joined = scene.joints.iter().any(|joint| joint.body == index || joint.to == Some(index));
             // the reel has the work of its drum
             let wound = scene.cables.iter().any(|cable| cable.drum.is_some_and(|drum| drum.body == index));
-            let free = !joined && !wound && !self.is_near_another(handle);
+            let near = self.is_near_another(handle);
+            let free = !joined && !wound && !near;
             let (cables, of_rounding) = on_body[index];
             rounding += if free { 0.0 } else { of_rounding };
             terms.push(BodyTerms {
@@ -103,6 +106,7 @@ impl Physics {
                 in_law: wound
                     || scene.attachments.iter().any(|a| a.body == Some(index) && self.has_law(self.handles[a.cable])),
                 free,
+                near,
             });
         }
         Ok(rounding)

@@ -9,7 +9,9 @@
 //!
 //! The energy law of the discrete gradient takes its place in a run in which all cables step by it. A body in a host step in which a collider
 //! is near it, or with a joint, takes part by what its cables do on it: what contacts and joints take is not known. With reels the works are summed,
-//! those of winches too; but with a cable that has contact and a reel the law is judged, for what impacts take is in the law alone.
+//! those of winches too; but with a cable that has contact and a reel, and in host steps in which a body is near another, the law is judged: what
+//! impacts of cables take is in the law alone, and so is what a body that touches does on its cables within a step. Without the law the work of
+//! such a body's cables in the step, all of it, bounds what is not known.
 
 use super::World;
 use crate::error::Error;
@@ -33,6 +35,8 @@ pub(super) struct Terms {
     pub reactions: f64,
     /// Whether a cable has contact and a reel: its works are not all known.
     pub unknown: bool,
+    /// Whether a cable has a reel.
+    pub winds: bool,
     /// Energy that the discrete gradient made, less what it lost; only if all cables step by it.
     pub by_law: Option<f64>,
     /// By how much the works may be wrong.
@@ -77,6 +81,10 @@ impl Account {
             last.reactions += moved * (f64::from(now.in_law) - f64::from(last_body.in_law));
             last_body.in_law = now.in_law;
         }
+        let is_summed = |t: &Terms| t.winds && !t.unknown && !t.bodies.iter().any(|body| body.near);
+        let judged = !is_summed(&now) || !is_summed(last);
+        let is_uncertain = now.winds && now.by_law.is_none();
+        let by_law = now.by_law.zip(last.by_law).filter(|_| judged).map(|(now, last)| now - last);
         let cables = |t: &Terms| t.kinetic + t.strain + t.gravity + t.dissipated - t.work;
         let mut change = cables(&now) - cables(last);
         let mut work = now.work - last.work;
@@ -87,9 +95,12 @@ impl Account {
             } else {
                 change += now.cables - last.cables;
                 work -= now.cables - last.cables;
+                // within a step a winch pulls on a body as that lands, or not
+                if is_uncertain && (now.near || last.near) {
+                    *steps_rounding += (now.cables - last.cables).abs();
+                }
             }
         }
-        let by_law = now.by_law.zip(last.by_law).map(|(now, last)| now - last);
         if let Some(by_law) = by_law {
             change = by_law;
             work += now.reactions - last.reactions;

@@ -86,7 +86,7 @@ impl World {
     /// [`Error::Coupling`]; not for a running scene.
     pub(super) fn terms(&self) -> Result<Terms, Error> {
         let mut terms = Terms::default();
-        let (mut by_law, mut winds) = (0.0, false);
+        let mut by_law = 0.0;
         for cable in self.cables() {
             let (energy, effects, law) = (cable.energy(), cable.effect_work(), cable.energy_law());
             terms.kinetic += energy.kinetic;
@@ -100,7 +100,7 @@ impl World {
             terms.work += work + dissipated - law.impacts;
             terms.uncertain += law.uncertain;
             terms.unknown |= cable.has_reel() && cable.effects().contact.is_some();
-            winds |= cable.has_reel();
+            terms.winds |= cable.has_reel();
             terms.work += cable.reels().map(|reel| reel.work + reel.remeshed).sum::<f64>();
             by_law += law.residual - law.numerical - law.rescaled - law.shortened;
         }
@@ -115,8 +115,7 @@ impl World {
         // the law has the work of gravity and loads on bodies, too
         let in_law = terms.bodies.iter().filter(|body| body.in_law);
         terms.reactions += in_law.map(|body| body.gravity - body.loads).sum::<f64>();
-        // the work of winches is checked too, where that of contacts does not keep it from being known
-        terms.by_law = (self.has_energy_law() && (terms.unknown || !winds)).then_some(by_law);
+        terms.by_law = self.has_energy_law().then_some(by_law);
         Ok(terms)
     }
 
