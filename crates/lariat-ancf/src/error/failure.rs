@@ -98,7 +98,9 @@ pub enum StepFailure {
 #[non_exhaustive]
 pub enum EquilibriumFailure {
     /// No support can take the resultant of the loads.
-    #[error("nothing holds the cable in place")]
+    #[error(
+        "no support and no attachment holds the cable in place: hold it; one that only lies on what it touches comes to rest in a run"
+    )]
     NotHeld,
     /// Every shape that was found has a folded element, which no cable has.
     #[error("no shape was found without folds: element {element} is folded on itself")]

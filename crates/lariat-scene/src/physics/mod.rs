@@ -43,6 +43,8 @@ use serde::{Deserialize, Serialize};
 const RAPIER_STEPS: u32 = 4;
 /// Largest difference of velocities at the start that is rounding, in m/s.
 const JOLT: f64 = 1e-5;
+/// Share of the length of a cable from which a gap that closes is told.
+const CLOSING: f64 = 1e-3;
 
 /// The bodies of a scene, and its cables during a run.
 #[derive(Serialize, Deserialize)]
@@ -241,7 +243,7 @@ impl Physics {
     }
 
     /// Returns whether the two sides of an attachment start at different velocities, and a warning
-    /// for each where that is a shock.
+    /// for each where that is a shock, or where a gap is to close.
     ///
     /// # Errors
     /// [`Error::Mechanics`]; not for a checked scene.
@@ -254,6 +256,11 @@ impl Physics {
             let state = self.body(scene, body, 0.0);
             let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
             let difference = point.velocity - there;
+            let apart = scene.anchor(attachment).map_or(0.0, |anchor| (point.position - anchor).norm());
+            if apart > CLOSING * cables[attachment.cable].length() && matches!(attachment.gap, Gap::Close) {
+                let (attachment, cable) = (attachment.name.clone(), scene.cables[attachment.cable].name.clone());
+                jolts.push(Warning::ClosingGap { attachment, cable, gap_m: apart });
+            }
             if difference.norm() <= JOLT {
                 continue;
             }

@@ -20,6 +20,7 @@ impl Warning {
             | Warning::ThickContact { .. }
             | Warning::FarAnchor { .. }
             | Warning::MixedJoints { .. }
+            | Warning::ClosingGap { .. }
             | Warning::LargeLoad { .. }
             | Warning::LargeInWaves { .. }
             | Warning::LightWater { .. }
@@ -59,6 +60,7 @@ impl Warning {
             | Warning::AddedMassInAir { cable, .. }
             | Warning::FarAnchor { cable, .. }
             | Warning::MixedJoints { cable, .. }
+            | Warning::ClosingGap { cable, .. }
             | Warning::LargeLoad { cable, .. } => Some(cable),
             Warning::FallsFreely { .. }
             | Warning::SheaveStopped { .. }
@@ -88,7 +90,7 @@ impl Judged for Warning {
         Some(match self {
             Warning::Cable(warning) => return warning.sign(),
             Warning::StartsInside { .. } => Sign::Inside,
-            Warning::OpenGap { .. } | Warning::FarAnchor { .. } => Sign::Gap,
+            Warning::OpenGap { .. } | Warning::FarAnchor { .. } | Warning::ClosingGap { .. } => Sign::Gap,
             Warning::VelocityJump { .. } => Sign::Shock,
             Warning::DrawnCorner { .. } => Sign::Corner,
             Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
@@ -140,7 +142,7 @@ impl Judged for Warning {
             Warning::FallsFreely { fall_m, .. } => *fall_m,
             Warning::StartsInside { depth_m, .. } => *depth_m,
             Warning::PassesThrough { time_s, .. } | Warning::SheaveStopped { time_s, .. } => -time_s,
-            Warning::OpenGap { gap_m, .. } => *gap_m,
+            Warning::OpenGap { gap_m, .. } | Warning::ClosingGap { gap_m, .. } => *gap_m,
             Warning::Unsettled { force, .. } => *force,
             Warning::WheelTurned { error_m, part_m, .. } => error_m / part_m,
             Warning::UnfinishedRamp { ramp_s, .. } => *ramp_s,

@@ -393,6 +393,19 @@ pub enum Warning {
         /// Radius of a sphere about the origin that holds the shape in m.
         radius_m: f64,
     },
+    /// A gap that closes.
+    #[error(
+        "attachment {attachment:?}: it starts {gap_m:.3e} m from the point of its cable, which is drawn there: what that pull makes is in no balance of energy; \
+         let both start at one point where energies and forces are read"
+    )]
+    ClosingGap {
+        /// Name of the attachment.
+        attachment: String,
+        /// Name of its cable.
+        cable: String,
+        /// Distance in m.
+        gap_m: f64,
+    },
     /// A body that moves with others by impulse joints and by those of a multibody at once.
     #[error(
         "attachment {attachment:?}: the body {body:?} moves with others by joints with `multibody` and by some without, and how such bodies answer a cable is not predicted: \

@@ -1,6 +1,6 @@
 //! Bodies that nothing holds, and loads that do nothing.
 
-use crate::{pendulum, warned};
+use crate::{pendulum, summary_of, warned};
 use lariat_scene::{Purpose, Warning};
 
 #[test]
@@ -132,4 +132,28 @@ fn joints_with_and_without_multibody_are_told() {
     };
     assert!(told([true, false]));
     assert!(!told([true, true]) && !told([false, false]));
+}
+
+/// A gap that closes is told first, and the energy that its pull makes is explained by it; where an anchor is in the axes of the world, that is told
+/// before.
+#[test]
+fn what_a_closing_gap_makes_is_told_as_that() {
+    let told = |y: f64, anchor: [f64; 3]| {
+        let text = format!(
+            "duration = 1.0\n[[body]]\nname = \"load\"\nmass = 10.0\nshape = {{ cuboid = [0.1, 0.1, 0.1] }}\nposition = [0.0, {y:?}, 0.0]\n\
+             [[cable]]\nname = \"rope\"\npoints = [[0.0, 0.0, 0.0], [0.0, -2.0, 0.0]]\nelements = 10\naxial_stiffness = 1e5\n\
+             bending_stiffness = 0.01\nmass_per_length = 0.1\n\
+             [[attachment]]\ncable = \"rope\"\nat = \"start\"\nbody = \"world\"\n\
+             [[attachment]]\nname = \"hook\"\ncable = \"rope\"\nat = \"end\"\nbody = \"load\"\nanchor = {anchor:?}\ngap = \"close\"\n"
+        );
+        summary_of(&text, Purpose::Run, None).told
+    };
+    for y in [-2.3, -2.6] {
+        let lines = told(y, [0.0, 0.1, 0.0]);
+        assert!(lines[0].contains("it starts") && lines[0].contains("in no balance of energy"), "{lines:?}");
+        assert!(!lines.iter().any(|line| line.contains("makes energy")), "{lines:?}");
+    }
+    let lines = told(-2.1, [0.0, -2.0, 0.0]);
+    assert!(lines[0].contains("in the axes of the body"), "{lines:?}");
+    assert!(!told(-2.1, [0.0, 0.1, 0.0]).iter().any(|line| line.contains("it starts")));
 }
