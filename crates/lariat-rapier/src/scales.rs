@@ -30,9 +30,9 @@ pub(crate) mod body {
     pub(crate) const MAX_HALF_ROTATION: f64 = 1.2;
 
     /// Speed in m/s, and rad/s, up to which a body is led back from where single precision rounded
-    /// it. Derived: a quarter of that to which Rapier limits bodies, 400 m/s; the rounding of a place
-    /// within 100 km in a step of 1e-4 s is 70 m/s. One that is not led back lies still until its
-    /// way is as long as the rounding.
+    /// it. Derived: a quarter of that to which Rapier limits bodies, 400 m/s; the rounding of a
+    /// place within 100 km in a step of 1e-4 s is 70 m/s. One that is not led back lies still until
+    /// its way is as long as the rounding.
     pub(crate) const LEADING_SPEED: f64 = 100.0;
 
     /// Mass of a ledger in kg. Derived: an impulse of 1e3 N s moves it at 1e-6 m/s.
