@@ -18,9 +18,9 @@
 //! What Rapier's step makes of the prediction is between two such steps, and no energy of
 //! integration: impulses of contacts and joints, damping of bodies, the motors that let them feel
 //! their cables; and so is what a user does. The impact of a cable that follows a body whose
-//! velocity jumped is dissipation. Where a gap closes, the work of its force is uncertain by how
-//! much that differs from its mean: of bodies in contact, which Rapier moves a little in each step,
-//! that adds up to some per cent of the energy in a second, and only what is more is told.
+//! velocity jumped is dissipation. Where a gap closes, the work of its force is uncertain by all of
+//! itself: of bodies in contact, which Rapier moves a little in each step, that adds up to some per
+//! cent of the energy in a second, and only what is more is told.
 //!
 //! By the energy law, which counts the residual of the step itself, islands are judged whatever
 //! acts on their cables: contacts, reels, sheaves, drums. By the other methods, those with sheaves,
@@ -137,7 +137,8 @@ pub(crate) fn note(
         let of_gap = account.impulse.dot(&closed) / h;
         work += of_gap;
         made -= of_gap;
-        uncertain += (account.force.dot(&closed) - of_gap).abs();
+        // by what force the end of the cable came to where the body had been put is not known
+        uncertain += account.force.dot(&closed).abs().max(of_gap.abs());
     }
     if by_law {
         (made, uncertain) = (terms.by_law - before.by_law, 0.0);

@@ -1,6 +1,6 @@
 //! Rapier's rounding of positions in single precision, which stiff, damped cables must not turn into forces.
 
-use super::common::{add_cube, cable, weightless};
+use super::common::{add_cube, cable, soft, weightless};
 use ::nalgebra::Rotation3;
 use lariat_rapier::lariat_ancf::{At, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
@@ -195,5 +195,30 @@ fn rounded_poses_that_make_forces_are_warned_of() {
         };
         assert_eq!(found.iter().any(rounded), warned, "{case}");
         assert_eq!(spread > 0.02 * 1e-4 * STIFFNESS, warned, "{case}");
+    }
+}
+
+/// A pendulum 100 km from the origin swings as one at the origin, in short steps, too: its place is rounded by more there than it moves in one.
+///
+/// *Source.* The same pendulum at the origin. Bound: the rounding of the place of a body at rest, 4 mm.
+#[test]
+fn a_pendulum_far_away_swings_in_short_steps() {
+    let swing = |far: f64, rate: u32| {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / rate as Real;
+        let cube = add_cube(&mut world, 1.0, 0.05, [(far + 1.0) as Real, 0.0, 0.0]);
+        let mut set = CableSet::new();
+        let rope = cable([far, 0.0, 0.0], [far + 1.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap();
+        let rope = set.insert(rope);
+        set.attach(&world, rope, At::End, cube, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        for _ in 0..rate {
+            set.step(&mut world).unwrap();
+        }
+        let sample = set.get(rope).unwrap().sample(1.0).unwrap();
+        sample.position - Vector3::new(far, 0.0, 0.0)
+    };
+    for rate in [240, 1000] {
+        let apart = (swing(1e5, rate) - swing(0.0, rate)).norm();
+        assert!(apart < 0.02, "{rate} per s: {apart} m");
     }
 }
