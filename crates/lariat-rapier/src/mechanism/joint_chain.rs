@@ -60,8 +60,8 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism>
             forces[0].fixed_view_mut::<6, 1>(6 * i, 0).copy_from(&load);
         }
     }
-    let (rows, limits, of_joints) = constraint_rows(world, &joints, n, predicts_loads, half)?;
-    let (rows_now, ..) = constraint_rows(world, &joints, n, predicts_loads, 0.0)?;
+    let Rows { rows, limits, of_joints } = constraint_rows(world, &joints, n, predicts_loads, half)?;
+    let rows_now = constraint_rows(world, &joints, n, predicts_loads, 0.0)?.rows;
     let turning = (&rows - rows_now) * velocities(world, &bodies) / half;
     let spread = &inverse * rows.transpose();
     let columns = inverse.columns(0, 6).into_owned();
@@ -159,14 +159,23 @@ fn place_in(body: &RigidBody, time: f64) -> (Vector3<f64>, UnitQuaternion<f64>) 
     (centre, turn_in(body, time) * rotation(*body.rotation()))
 }
 
-/// Returns G with `n` columns after a time (s) of the present motion, and by row its limit.
+/// G.
+struct Rows {
+    rows: DMatrix<f64>,
+    /// By row, its limit.
+    limits: Vec<Option<Limit>>,
+    /// By joint, which rows are its own.
+    of_joints: Vec<JointRows>,
+}
+
+/// Returns G with `n` columns after a time (s) of the present motion.
 fn constraint_rows(
     world: &PhysicsWorld,
     joints: &[ChainJoint],
     n: usize,
     predicts_loads: bool,
     time: f64,
-) -> Option<(DMatrix<f64>, Vec<Option<Limit>>, Vec<JointRows>)> {
+) -> Option<Rows> {
     let active =
         |joint: &ImpulseJoint| if predicts_loads { limits::reached(world, joint) } else { limits::pushing(joint) };
     let held = |joint: &ImpulseJoint| joint.data.locked_axes.bits() | active(joint);
@@ -211,5 +220,5 @@ fn constraint_rows(
             }));
         }
     }
-    Some((rows, found, of_joints))
+    Some(Rows { rows, limits: found, of_joints })
 }
