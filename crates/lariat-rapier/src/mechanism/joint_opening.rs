@@ -10,7 +10,8 @@
 //! Gauss-Seidel from l = 0 with the right side b + g/h^2, so that gaps g close within h. A sweep
 //! ends at (L + D)^-1 (b + g/h^2), which is l, the forces that hold, when g is as above: joints
 //! that do not converge open until their gaps do what sweeps leave undone. Of two joints on a link
-//! of mass m that carry the force F that is F h^2/m. The gap grows to it in the time h M/m.
+//! of mass m that carry the force F of a body of mass M that is F h^2/m, as on a spring of m/h^2:
+//! the gap grows to it in some h sqrt(M/m).
 //!
 //! # Validity
 //! Gaps small beside the arms of their joints, of joints as stiff as Rapier makes them by default.
@@ -55,7 +56,8 @@ impl JointRows {
 pub(super) fn opening(constraints: &Constraints, joints: &[JointRows], (h, sweeps): (f64, usize)) -> JointGap {
     let mut matrix = &constraints.rows * &constraints.spread;
     for i in 0..matrix.nrows() {
-        matrix[(i, i)] *= 1.0 + REGULARISATION_OF_OPENING;
+        // a row that nothing moves holds nothing
+        matrix[(i, i)] = if matrix[(i, i)] > 0.0 { matrix[(i, i)] * (1.0 + REGULARISATION_OF_OPENING) } else { 1.0 };
     }
     let turning = DMatrix::from_column_slice(matrix.nrows(), 1, constraints.turning.as_slice());
     let Some(matrix) = matrix.cholesky() else { return JointGap::default() };
