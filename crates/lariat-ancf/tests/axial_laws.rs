@@ -268,7 +268,8 @@ fn a_damped_rope_has_the_derivatives_of_its_force() {
     }
 }
 
-/// Damping of a rope takes energy in every step, exactly, and the energy law closes with it to what a step may make: thrown, snapping taut and going slack, at any step.
+/// Damping of a rope takes energy in every step, exactly, and the energy law closes with it to what a step may make: thrown, snapping taut and going
+/// slack, at any step.
 ///
 /// *Source.* The law: energy now is energy before less what damping and the step itself took.
 #[test]

@@ -67,7 +67,9 @@ pub(super) fn find(world: &PhysicsWorld, request: &Request) -> Option<Mechanism>
     let columns = inverse.columns(0, 6).into_owned();
     let [free, all] = forces.map(|forces| &inverse * forces);
     let constraints = Constraints { rows, spread, turning, limits, substep: request.substep };
-    let opening = match predicts_loads && has_light_link(world, &bodies) {
+    // once for all members of the island that it holds
+    let is_first = request.members.iter().find(|(m, _)| bodies.contains(m)).is_some_and(|(m, _)| *m == handle);
+    let opening = match is_first && predicts_loads && has_light_link(world, &bodies) {
         true => opening(&constraints, &of_joints, (request.substep, request.sweeps)),
         false => JointGap::default(),
     };

@@ -386,13 +386,14 @@ fn mixed_joints(
 /// stepped: where they lie and how they move is what the user gave. Chooses what is read of cables
 /// by the level that is `asked` for, and their names by the `interface`.
 pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, (asked, interface): (Option<Level>, Interface)) {
+    let mut of_world = length_unit(world).filter(|_| !contents.cables.values().any(|slot| slot.introduced));
     for index in 0..contents.cables.len() {
         let Some(slot) = contents.cables.get_mut(index).filter(|slot| slot.cable.is_watched()) else { continue };
         slot.cable.watch_up_to(asked.unwrap_or_else(|| slot.cable.warn_level()));
         if core::mem::replace(&mut slot.introduced, true) {
             continue;
         }
-        if let Some(warning) = length_unit(world).filter(|_| index == 0) {
+        if let Some(warning) = of_world.take() {
             log::warn!("{}", interface.text(&warning));
         }
         if let Some(slot) = contents.cables.get(index) {

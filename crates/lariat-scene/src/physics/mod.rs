@@ -29,7 +29,7 @@ use crate::warning::Warning;
 use lariat_ancf::coupling::{Coupling, SegmentTwist};
 use lariat_ancf::island::RigidBody;
 use lariat_ancf::{At, Break, Cable, Momentum, Vector3};
-use lariat_rapier::convert::to_vector;
+use lariat_rapier::convert::{to_vector, vector};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Real;
 use lariat_rapier::rapier::prelude::PhysicsWorld;
@@ -256,7 +256,9 @@ impl Physics {
             let state = self.body(scene, body, 0.0);
             let there = state.velocity + state.angular_velocity.cross(&(point.position - state.position));
             let difference = point.velocity - there;
-            let apart = scene.anchor(attachment).map_or(0.0, |anchor| (point.position - anchor).norm());
+            let pose = self.world.bodies[self.bodies[body]].position();
+            let held = attachment.anchor.map(|anchor| vector(pose.transform_point(to_vector(&anchor))));
+            let apart = held.map_or(0.0, |held| (point.position - held).norm());
             if apart > CLOSING * cables[attachment.cable].length() && matches!(attachment.gap, Gap::Close) {
                 let (attachment, cable) = (attachment.name.clone(), scene.cables[attachment.cable].name.clone());
                 jolts.push(Warning::ClosingGap { attachment, cable, gap_m: apart });

@@ -58,9 +58,7 @@ impl Drum {
         let bodies = [Some(self.body), self.holder(cables, pins)];
         Winch::new((cable, side), bodies, self.axis, self.radius, pull.unwrap_or(0.0))
     }
-}
 
-impl Drum {
     /// Checks its numbers.
     ///
     /// # Errors
