@@ -26,6 +26,7 @@ mod saved;
 mod scene;
 mod section;
 mod shared;
+mod told;
 mod world;
 
 /// The extension module.

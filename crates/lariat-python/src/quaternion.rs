@@ -1,23 +1,13 @@
 //! Quaternions x, y, z, w from Python.
 
 use crate::error::raise;
+use crate::told::warn;
 use lariat_ancf::Error;
 use nalgebra::{Quaternion, UnitQuaternion};
 use pyo3::prelude::*;
-use std::ffi::CString;
 
 /// Largest difference of the length of a quaternion from 1.
 const LENGTH: f64 = 1e-3;
-
-/// Gives lines to Python's `warnings`, where the filters of the user decide.
-pub fn warn(py: Python<'_>, lines: impl IntoIterator<Item = String>) -> PyResult<()> {
-    let mut lines = lines.into_iter().peekable();
-    if lines.peek().is_none() {
-        return Ok(());
-    }
-    let category = py.import("lariat_cables.errors")?.getattr("ResultWarning")?;
-    lines.try_for_each(|line| PyErr::warn(py, &category, &CString::new(line)?, 1))
-}
 
 /// Returns the rotation of a quaternion x, y, z, w. Warns of a half turn about x, which is what the identity is where w is first, as in MuJoCo.
 pub fn rotation(py: Python<'_>, [x, y, z, w]: [f64; 4]) -> PyResult<UnitQuaternion<f64>> {

@@ -14,6 +14,12 @@ impl<T> Clone for Shared<T> {
     }
 }
 
+impl<T: Default + Send> Default for Shared<T> {
+    fn default() -> Self {
+        Shared::new(T::default())
+    }
+}
+
 /// Longest time between two looks for signals.
 const UNHEARD: Duration = Duration::from_millis(50);
 

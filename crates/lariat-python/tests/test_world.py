@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import warnings
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -186,6 +187,23 @@ def test_the_first_warning_of_each_kind_goes_through_warnings() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error", errors.ResultWarning)
         world.step()
-    rope = lariat.Cable([[0, 0, 0], [2, 0, 0]], lariat.Section(1e5, 0.01, 0.1), length=2.5, elements=2, fix="start")
-    rope.step(0.02, steps=20)
+    def limp() -> lariat.Cable:
+        section = lariat.Section(1e5, 0.01, 0.1)
+        return lariat.Cable([[0, 0, 0], [2, 0, 0]], section, length=2.5, elements=2, fix="start")
+
+    def coarse(steps: Callable[[], object]) -> int:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            steps()
+        return sum("`elements=" in str(line.message) for line in told)
+
+    rope = limp()
+    assert coarse(lambda: rope.step(0.02, steps=20)) == 1
+    assert coarse(lambda: rope.step(0.02, steps=20)) == 0
     assert any("`elements=" in text for text in rope.warnings()), rope.warnings()
+    ropes = [limp() for _ in range(5)]
+    assert coarse(lambda: lariat.step_all(ropes, 0.02, steps=20)) == 1
+    assert coarse(lambda: lariat.step_together([limp(), limp()], 0.02, steps=20)) == 1
+    held = lariat.CoSimulation(limp())
+    held.attach("start", [0, 0, 0])
+    assert coarse(lambda: [held.step(0.02, [[0, 0, 0]]) for _ in range(20)]) == 1

@@ -200,8 +200,9 @@ class Cable:
         """
 
     def step(self, dt: float, *, steps: int = 1) -> None:
-        """Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Ctrl-C ends it after a step. Raises InvalidValueError, AttachedError, InWorldError, and
-        StepFailedError, after which the cable is as it was before the step that failed."""
+        """Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Ctrl-C ends it after a step. The first warning of each kind goes
+        through Python's ``warnings`` as ``errors.ResultWarning``; ``warnings()`` has all. Raises InvalidValueError, AttachedError, InWorldError,
+        and StepFailedError, after which the cable is as it was before the step that failed."""
 
     def equilibrium(self, *, tolerance: float = 1e-9, iterations: int = 400) -> Equilibrium:
         """Moves the cable to static equilibrium. ``tolerance``: largest residual force over the sum of the loads. Raises
@@ -441,15 +442,15 @@ class Cable:
         and why it broke, or None if it holds. Raises InWorldError."""
 
 def step_all(cables: Sequence[Cable], dt: float, *, steps: int = 1) -> States:
-    """Advances cables that nothing connects by ``steps`` steps of ``dt`` (s), on all threads, and returns their states as arrays. Raises
-    StepFailedError, that of the first cable that cannot step, after all others have made that step; DuplicateCableError, InWorldError."""
+    """Advances cables that nothing connects by ``steps`` steps of ``dt`` (s), on all threads, and returns their states as arrays. Warns as
+    ``Cable.step`` does, once for all. Raises StepFailedError, that of the first cable that cannot step, after all others have made that step; DuplicateCableError, InWorldError."""
 
 def states(cables: Sequence[Cable]) -> States:
     """Returns the states of cables as arrays, without a step; cables of worlds, too. Raises NoCableError."""
 
 def step_together(cables: Sequence[Cable], dt: float, *, steps: int = 1) -> None:
     """Advances cables that may touch each other (``Contact(cables=True)``) by ``steps`` steps of ``dt`` (s), in one system, with the integrator of
-    the first. Raises DuplicateCableError, EmptyIslandError, TimeMismatchError, StepFailedError; the steps before a failed one are made."""
+    the first. Warns as ``Cable.step`` does, once for all. Raises DuplicateCableError, EmptyIslandError, TimeMismatchError, StepFailedError; the steps before a failed one are made."""
 
 def integrators() -> list[str]:
     """Returns the names of the integration methods."""
@@ -491,8 +492,8 @@ class CoSimulation:
     ) -> EndForces:
         """Advances the cable by ``dt`` (s) while the bodies move to ``positions`` (m, shape (ends, 3)), ``rotations`` (shape (ends, 4);
         default: unchanged) with ``velocities`` (m/s) and ``angular_velocities`` (rad/s) at the end of the step (shape (ends, 3); default:
-        uniform motion over the step). Raises ShapeError, InvalidValueError, GapTooLongError (something else moved an end by more than
-        1e-3 m), and StepFailedError, after which all is as before."""
+        uniform motion over the step). Warns as ``Cable.step`` does. Raises ShapeError, InvalidValueError, GapTooLongError (something else
+        moved an end by more than 1e-3 m), and StepFailedError, after which all is as before."""
 
     def impedance(self, dt: float) -> Array:
         """Returns Z, shape (6 ends, 6 ends), velocity before angular velocity of each end, about the reference points, in kg, kg m and

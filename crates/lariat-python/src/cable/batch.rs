@@ -1,6 +1,6 @@
 //! Several cables in one call: stepped on all threads or in one system, and read as arrays.
 
-use super::Cable;
+use super::{Cable, tell};
 use crate::convert::result;
 use crate::error::{Raise, raise};
 use crate::shared::{Shared, repeat_for_a_while};
@@ -50,8 +50,8 @@ pub fn states<'py>(py: Python<'py>, cables: Vec<Bound<'py, Cable>>) -> PyResult<
 }
 
 /// Advances cables that nothing connects by ``steps`` steps of ``dt`` (s), on all threads, and
-/// returns their states as arrays. Raises StepFailedError, that of the first cable that cannot
-/// step, after all others have made that step; DuplicateCableError, InWorldError.
+/// returns their states as arrays. Warns as ``Cable.step`` does, once for all. Raises
+/// StepFailedError, that of the first cable that cannot step, after all others have made that step; DuplicateCableError, InWorldError.
 #[pyfunction]
 #[pyo3(signature = (cables, dt, *, steps=1))]
 pub fn step_all<'py>(
@@ -75,11 +75,13 @@ pub fn step_all<'py>(
         })?;
         py.check_signals()?;
     }
+    tell(py, cables.iter().map(Bound::get))?;
     states(py, cables)
 }
 
 /// Advances cables that may touch each other (``Contact(cables=True)``) by ``steps`` steps of
-/// ``dt`` (s), in one system, with the integrator of the first. Raises DuplicateCableError,
+/// ``dt`` (s), in one system, with the integrator of the first. Warns as ``Cable.step`` does, once for all.
+/// Raises DuplicateCableError,
 /// EmptyIslandError, TimeMismatchError, StepFailedError; the steps before a failed one are made.
 #[pyfunction]
 #[pyo3(signature = (cables, dt, *, steps=1))]
@@ -94,11 +96,13 @@ pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, ste
             let integrator = cables.first().ok_or(ancf::Error::EmptyIsland)?.integrator();
             repeat_for_a_while(&mut left, || {
                 cables.iter_mut().try_for_each(|cable| cable.remesh_reel())?;
-                island.step(&mut cables, &mut [], &[], integrator, dt)
+                island.step(&mut cables, &mut [], &[], integrator, dt)?;
+                cables.iter_mut().for_each(|cable| cable.note_host_step(false, |_| ()));
+                Ok::<_, ancf::Error>(())
             })
         });
         outcome.map_err(raise)?;
         py.check_signals()?;
     }
-    Ok(())
+    tell(py, cables.iter().map(Bound::get))
 }

@@ -144,7 +144,7 @@ impl Cable {
         let laid: Vec<_> = parameters.into_iter().map(|parameters| Laid { time, parameters }).collect();
         let made = made(&laid).map_err(raise)?;
         self.change(py, |cable| cable.set_obstacles(made))?;
-        self.1.with(py, |own| *own = laid);
+        self.obstacles.with(py, |own| *own = laid);
         Ok(())
     }
 

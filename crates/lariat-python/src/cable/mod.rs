@@ -12,6 +12,7 @@ use crate::integrator::{Choice, fidelity};
 use crate::saved;
 use crate::section::Section;
 use crate::shared::Shared;
+use crate::told::{Told, warn};
 use crate::world::Contents;
 pub use batch::{states, step_all, step_together};
 pub use contact::Laid;
@@ -23,6 +24,16 @@ use pyo3::marker::Ungil;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::borrow::Cow;
+
+/// Gives to Python's `warnings` what is to be told of cables after their steps: each kind once.
+fn tell<'a>(py: Python<'_>, cables: impl IntoIterator<Item = &'a Cable>) -> PyResult<()> {
+    let (mut all, mut lines) = (Told::default(), Vec::new());
+    for own in cables {
+        let told = &own.told;
+        lines.extend(own.read(py, |cable| Ok(told.lock().of_cable(cable, &mut all)))?);
+    }
+    warn(py, lines)
+}
 
 /// Where the cable is.
 #[derive(Clone)]
@@ -63,7 +74,13 @@ enum Home {
 /// ElementCountError, NoSectionError, RankDeficientError, OutOfRangeError, NodeBeforeMeshError,
 /// EffectsError, MissingForEffectError, ExplicitDampingError and those of unknown names.
 #[pyclass(frozen, module = "lariat_cables")]
-pub struct Cable(Home, Shared<Vec<Laid>>);
+pub struct Cable {
+    home: Home,
+    /// Obstacles of its own.
+    obstacles: Shared<Vec<Laid>>,
+    /// What was told of it through Python's `warnings`.
+    told: Shared<Told>,
+}
 
 impl Cable {
     /// Makes the Python object of a cable.
@@ -73,12 +90,13 @@ impl Cable {
 
     /// Makes the Python object of a cable of a world.
     pub fn of_world(contents: Shared<Contents>, handle: CableHandle) -> Self {
-        Cable(Home::World(contents, handle), Shared::new(Vec::new()))
+        let (obstacles, told) = Default::default();
+        Cable { home: Home::World(contents, handle), obstacles, told }
     }
 
     /// Makes the Python object of a cable that has these obstacles.
     fn laid(cable: ancf::Cable, obstacles: Vec<Laid>) -> Self {
-        Cable(Home::Own(Shared::new(cable)), Shared::new(obstacles))
+        Cable { home: Home::Own(Shared::new(cable)), obstacles: Shared::new(obstacles), told: Shared::default() }
     }
 
     /// Makes the Python object of a cable that was saved with these obstacles.
@@ -91,12 +109,17 @@ impl Cable {
 
     /// Returns the obstacles of its own.
     pub fn obstacles(&self, py: Python<'_>) -> Vec<Laid> {
-        self.1.with(py, |own| own.clone())
+        self.obstacles.with(py, |own| own.clone())
     }
 
     /// Returns a copy of the cable.
     pub fn copied(&self, py: Python<'_>) -> PyResult<ancf::Cable> {
         self.read(py, |cable| Ok(cable.clone()))
+    }
+
+    /// Gives to Python's `warnings` what is to be told of the cable after its steps.
+    pub fn tell(&self, py: Python<'_>) -> PyResult<()> {
+        tell(py, [self])
     }
 
     /// Reads the cable.
@@ -105,7 +128,7 @@ impl Cable {
         py: Python<'_>,
         f: impl FnOnce(&ancf::Cable) -> Result<R, Error> + Ungil + Send,
     ) -> PyResult<R> {
-        match &self.0 {
+        match &self.home {
             Home::Own(cable) => cable.with(py, |cable| f(cable)).map_err(raise),
             Home::World(contents, handle) => {
                 contents.with(py, |contents| Ok(f(contents.set.get(*handle)?)?)).map_err(raise::<lariat_rapier::Error>)
@@ -119,7 +142,7 @@ impl Cable {
         py: Python<'_>,
         f: impl FnOnce(&mut ancf::Cable) -> Result<R, Error> + Ungil + Send,
     ) -> PyResult<R> {
-        match &self.0 {
+        match &self.home {
             Home::Own(cable) => cable.compute(py, f).map_err(raise),
             Home::World(contents, handle) => contents
                 .compute(py, |contents| Ok(f(contents.set.get_mut(*handle)?)?))
@@ -129,7 +152,7 @@ impl Cable {
 
     /// Returns the cable, if it belongs to no world.
     pub fn own(&self, what: &str) -> PyResult<&Shared<ancf::Cable>> {
-        match &self.0 {
+        match &self.home {
             Home::Own(cable) => Ok(cable),
             Home::World(..) => {
                 let message = format!("the cable belongs to a world, and cannot {what}: step the world");
@@ -140,7 +163,7 @@ impl Cable {
 
     /// Returns the handle, if it belongs to this world.
     pub fn handle_in(&self, contents: &Shared<Contents>) -> PyResult<CableHandle> {
-        match &self.0 {
+        match &self.home {
             Home::World(home, handle) if home.address() == contents.address() => Ok(*handle),
             _ => Err(raise(Raise::new("OtherWorldError", "the cable is not in this world: add it with add_cable"))),
         }
@@ -259,11 +282,14 @@ impl Cable {
     }
 
     /// Advances the cable by ``steps`` steps of ``dt`` (s); 0 does nothing. Ctrl-C ends it after a
-    /// step. Raises InvalidValueError, AttachedError, InWorldError, and StepFailedError, after
-    /// which the cable is as it was before the step that failed.
+    /// step. The first warning of each kind goes through Python's ``warnings`` as
+    /// ``errors.ResultWarning``; ``warnings()`` has all. Raises InvalidValueError, AttachedError,
+    /// InWorldError, and StepFailedError, after which the cable is as it was before the step that
+    /// failed.
     #[pyo3(signature = (dt, *, steps=1))]
     fn step(&self, py: Python<'_>, dt: f64, steps: usize) -> PyResult<()> {
-        self.own("step by itself")?.repeat(py, steps, |cable| cable.step(dt))?.map_err(raise)
+        self.own("step by itself")?.repeat(py, steps, |cable| cable.step(dt))?.map_err(raise)?;
+        self.tell(py)
     }
 
     /// Moves the cable to static equilibrium. ``tolerance``: largest residual force over the sum of
@@ -292,7 +318,7 @@ impl Cable {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        if let Home::World(..) = slf.get().0 {
+        if let Home::World(..) = slf.get().home {
             // beside its world, it would be a cable of none
             let message =
                 "the cable belongs to a world: pickle that, and take its cables of what is loaded, or pickle a copy()";

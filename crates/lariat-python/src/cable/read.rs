@@ -4,9 +4,9 @@ use super::Cable;
 use crate::convert::{Array, Place, Places, node, object, result, table, vector, vectors};
 use crate::integrator::Integrator;
 use crate::section::Section;
+use crate::told::unexplained;
 use lariat_ancf::coupling::Linearisation;
 use lariat_ancf::warning::Interface;
-use lariat_ancf::warning::fold::explained;
 use lariat_ancf::{At, Sample, TorsionReading, Vector3};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -170,12 +170,7 @@ impl Cable {
     /// Returns what the cable says about its mesh, steps, energy, law and sizes, in all its steps;
     /// what is beyond the ``warn_level`` of its world, of its present shape.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        self.read(py, |cable| {
-            let warnings = cable.warnings();
-            let causes = explained(&warnings, |_| Some(()), |_| true);
-            let told = warnings.iter().zip(causes).filter(|(_, cause)| cause.is_none());
-            Ok(told.map(|(warning, _)| Interface::Python.text(warning)).collect())
-        })
+        self.read(py, |cable| Ok(unexplained(cable).iter().map(|warning| Interface::Python.text(warning)).collect()))
     }
 
     /// Returns the arc length in m of the largest tension, and that tension in N.

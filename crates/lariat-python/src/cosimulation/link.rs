@@ -163,6 +163,7 @@ impl Link {
             .collect();
         let integrator = cable.integrator();
         self.island.step(&mut [cable], &mut bodies, &pins, integrator, h)?;
+        cable.note_host_step(false, |_| ());
         let accounts = self.island.accounts().to_vec();
         let end_forces = self.end_forces(cable, to, &pins, &bodies, h).unwrap_or_else(|_| vec![None; pins.len()]);
         let wrenches = self.ends.iter_mut().zip(to).zip(accounts).zip(end_forces);

@@ -143,7 +143,7 @@ impl CoSimulation {
     /// Advances the cable by ``dt`` (s) while the bodies move to ``positions`` (m, shape (ends,
     /// 3)), ``rotations`` (shape (ends, 4); default: unchanged) with ``velocities`` (m/s) and
     /// ``angular_velocities`` (rad/s) at the end of the step (shape (ends, 3); default: uniform
-    /// motion over the step). Raises ShapeError, InvalidValueError, GapTooLongError (something else
+    /// motion over the step). Warns as ``Cable.step`` does. Raises ShapeError, InvalidValueError, GapTooLongError (something else
     /// moved an end by more than 1e-3 m), and StepFailedError, after which all is as before.
     #[pyo3(signature = (dt, positions, rotations=None, velocities=None, angular_velocities=None))]
     fn step<'py>(
@@ -186,6 +186,7 @@ impl CoSimulation {
             link.step(&mut cable.lock(), &to, dt)
         });
         let wrenches = wrenches.map_err(raise)?;
+        self.object.get().tell(py)?;
         let of = |read: fn(&Wrench) -> Vector3<f64>| vectors(py, &wrenches.iter().map(read).collect::<Vec<_>>());
         let work: Vec<f64> = wrenches.iter().map(|wrench| wrench.work).collect();
         let values = (of(|w| w.force)?, of(|w| w.moment)?, of(|w| w.end_force)?, numpy::PyArray1::from_vec(py, work));

@@ -36,16 +36,11 @@ impl Contents {
 
     /// Returns the text of a warning, unless one of its kind was told.
     fn first_of_kind(&mut self, warning: &Warning) -> Option<String> {
-        let debug = match warning {
-            Warning::Cable { warning, .. } => format!("{warning:?}"),
-            other => format!("{other:?}"),
+        let first = match warning {
+            Warning::Cable { warning, .. } => self.told.is_first(warning),
+            other => self.told.is_first(other),
         };
-        let kind = debug.split(' ').next().unwrap_or_default();
-        if self.told.iter().any(|told| told == kind) {
-            return None;
-        }
-        self.told.push(kind.to_string());
-        Some(Interface::Python.text(warning))
+        first.then(|| Interface::Python.text(warning))
     }
 }
 

@@ -16,9 +16,9 @@ use crate::cable::Cable;
 use crate::convert::{Place, Vector, result, vector};
 use crate::error::{Raise, raise};
 use crate::integrator::fidelity;
-use crate::quaternion::warn;
 use crate::saved;
 use crate::shared::Shared;
+use crate::told::{Told, warn};
 use bodies::{Handle, single};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::pipeline::PhysicsWorld;
@@ -52,9 +52,9 @@ pub struct Contents {
     names: Names,
     /// Paths and loads of a scene.
     script: Script,
-    /// Kinds of warnings that were told through Python's `warnings`.
+    /// What was told through Python's `warnings`.
     #[serde(skip)]
-    told: Vec<String>,
+    told: Told,
 }
 
 /// rapier3d with cables on its bodies. Names are those of the ``rapier3d`` wheel where they

@@ -6,6 +6,7 @@ use crate::cable::Cable;
 use crate::convert::result;
 use crate::error::{Raise, raise};
 use crate::shared::Shared;
+use crate::told::Told;
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::{AttachmentHandle, SheaveHandle};
 use lariat_scene::run::Parts;
@@ -143,7 +144,7 @@ pub fn load_scene(py: Python<'_>, file: &str, text: &str, overrides: Vec<String>
             junctions,
             names,
             script,
-            told: Vec::new(),
+            told: Told::default(),
         };
         Ok::<_, Error>((World(Shared::new(contents)), told))
     });
