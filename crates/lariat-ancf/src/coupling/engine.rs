@@ -212,8 +212,9 @@ pub trait Coupling {
     /// As [`cut`](Cable::cut).
     fn divide_at(&mut self, at: At) -> Result<(Cable, Break), Error>;
 
-    /// Returns whether the rate of a reel is an unknown, which only `discrete-gradient` solves for.
-    fn has_reel_law(&self) -> bool;
+    /// Returns whether an effect, or a reel whose rate is an unknown, asks for
+    /// `discrete-gradient`, which alone solves for it.
+    fn needs_discrete_gradient(&self) -> bool;
 
     /// Lets the stock of a reel ride with a body at its eye, if that is at this node: energy and
     /// momentum have it from now on, as from a step on such a body.
@@ -424,8 +425,8 @@ impl Coupling for Cable {
         Cable::divide_at(self, at)
     }
 
-    fn has_reel_law(&self) -> bool {
-        self.model.reels.have_laws()
+    fn needs_discrete_gradient(&self) -> bool {
+        self.effects().need_discrete_gradient() || self.model.reels.have_laws()
     }
 
     fn ride(&mut self, node: usize) {

@@ -72,6 +72,6 @@ pub use impedance::Impedance;
 pub use layout::closing_share;
 pub use pin::PinConstraint;
 pub use pin_accounts::PinAccount;
-pub use reel::{Drum, Sheave};
+pub use reel::{Drum, Sheave, Wheels};
 pub use statics::{FREE, JointFrame, Links, LoadThere, PlacedLoad, StaticJoint, equilibrium};
 pub use step::Island;

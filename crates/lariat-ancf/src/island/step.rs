@@ -7,9 +7,9 @@ use super::dynamics::{IslandDynamics, Vectors};
 use super::equations::{IslandEquations, Matrices};
 use super::layout::Layout;
 use super::memory;
-use super::pin::{PinConstraint, check, is_on_free_body};
+use super::pin::{PinConstraint, check};
 use super::pin_accounts::{PinAccount, PinAccounts};
-use super::reel::{self, Drum, Sheave};
+use super::reel::{self, Wheels};
 use crate::cable::{Cable, check_integrator, check_torsion};
 use crate::contact::CablePair;
 use crate::error::{Error, require};
@@ -105,7 +105,7 @@ impl Island {
         integrator: impl Into<IntegratorRef<'i>>,
         dt: f64,
     ) -> Result<(), Error> {
-        self.step_with_sheaves(cables, bodies, pins, (&mut [], &[]), integrator.into(), dt)
+        self.step_with_wheels(cables, bodies, pins, Wheels::default(), integrator.into(), dt)
     }
 
     /// Advances as [`step_with`](Self::step_with) does, with cables that run over sheaves and on
@@ -114,12 +114,12 @@ impl Island {
     /// # Errors
     /// As [`step`](Self::step), and [`Error::ReelPlace`] for a sheave or drum that does not fit the
     /// cables; sheaves are then as before, too.
-    pub fn step_with_sheaves(
+    pub fn step_with_wheels(
         &mut self,
         cables: &mut [&mut Cable],
         bodies: &mut [RigidBody],
         pins: &[PinConstraint],
-        (sheaves, drums): (&mut [Sheave], &[Drum]),
+        wheels: Wheels<'_>,
         integrator: IntegratorRef<'_>,
         dt: f64,
     ) -> Result<(), Error> {
@@ -129,30 +129,21 @@ impl Island {
         cables.iter().try_for_each(|cable| check_integrator(&cable.model, integrator.method))?;
         cables.iter().try_for_each(|cable| check_torsion(&cable.model, integrator.method, "an attachment"))?;
         cables.iter().try_for_each(|cable| cable.model.obstacles.check_bodies(cable.name(), bodies.len()))?;
-        reel::check(cables, bodies, pins, (&*sheaves, drums))?;
+        reel::check(cables, bodies, pins, (&*wheels.sheaves, wheels.drums))?;
         coupling::check(&self.layout.coupled, bodies.len())?;
         if dt == 0.0 {
             return Ok(());
         }
-        for (i, cable) in cables.iter().enumerate().filter(|(_, cable)| cable.has_reel()) {
-            cable.check_reel_in_island(|node| is_on_free_body(bodies, pins, i, node), integrator.method, dt)?;
-        }
-        for (i, cable) in cables.iter_mut().enumerate().filter(|(_, cable)| cable.has_reel()) {
-            cable.set_riding_stock(|node| is_on_free_body(bodies, pins, i, node));
-        }
+        reel::prepare(cables, bodies, pins, integrator.method, dt)?;
         let mut straight = std::mem::take(&mut self.straight);
         straight.bend(cables);
-        cables.iter_mut().for_each(|cable| cable.begin_reel(dt));
-        reel::begin(&mut self.by_discrete_gradient.unknowns, cables, pins, (&*sheaves, drums));
+        reel::begin(&mut self.by_discrete_gradient.unknowns, cables, pins, &wheels, dt);
         cables.iter_mut().for_each(|cable| cable.take_workspace());
         let outcome = self.step_in_workspaces(cables, bodies, pins, integrator, dt);
         cables.iter_mut().rev().for_each(|cable| cable.return_workspace());
-        cables.iter_mut().for_each(|cable| cable.end_reel(outcome.is_ok()));
+        reel::end(&self.by_discrete_gradient.unknowns, cables, wheels, outcome.is_ok());
         if outcome.is_err() {
             straight.put_back(cables);
-        } else {
-            let wheels = &self.by_discrete_gradient.unknowns.wheels;
-            sheaves.iter_mut().zip(wheels).for_each(|(sheave, wheel)| *sheave = wheel.sheave);
         }
         self.straight = straight;
         outcome

@@ -2,7 +2,7 @@
 
 use super::common::G;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{Drum, Island, PinConstraint, RigidBody};
+use lariat_ancf::island::{Drum, Island, PinConstraint, RigidBody, Wheels};
 use lariat_ancf::{
     At, AxialLaw, Cable, Damping, Effects, Error, Integrator, Method, Reel, Section, StepControl, Vector3,
 };
@@ -81,7 +81,14 @@ impl Winch {
         self.pins[0].node = load;
         self.pins.iter_mut().skip(1).for_each(|pin| pin.node = eye);
         let Winch { cable, bodies, pins, drum, island, .. } = self;
-        island.step_with_sheaves(&mut [cable], bodies, pins, (&mut [], &[*drum]), (&GAME).into(), dt)
+        island.step_with_wheels(
+            &mut [cable],
+            bodies,
+            pins,
+            Wheels { drums: &[*drum], ..Wheels::default() },
+            (&GAME).into(),
+            dt,
+        )
     }
 
     /// Returns the energy of all in J with what was lost.

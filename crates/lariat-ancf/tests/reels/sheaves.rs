@@ -2,7 +2,7 @@
 
 use super::common::G;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{Island, PinConstraint, RigidBody, Sheave};
+use lariat_ancf::island::{Island, PinConstraint, RigidBody, Sheave, Wheels};
 use lariat_ancf::{
     At, AxialLaw, Cable, Damping, Effects, Error, Integrator, Method, Reel, Section, StepControl, Vector3,
 };
@@ -74,7 +74,14 @@ impl Tackle {
         }
         let mut cables: Vec<&mut Cable> = self.cables.iter_mut().collect();
         let Tackle { bodies, pins, sheaves, dt, .. } = self;
-        Island::default().step_with_sheaves(&mut cables, bodies, pins, (sheaves, &[]), (&GAME).into(), *dt)
+        Island::default().step_with_wheels(
+            &mut cables,
+            bodies,
+            pins,
+            Wheels { sheaves, drums: &[] },
+            (&GAME).into(),
+            *dt,
+        )
     }
 
     fn run(&mut self, time: f64) {

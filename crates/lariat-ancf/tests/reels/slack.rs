@@ -3,7 +3,7 @@
 use super::common::G;
 use super::random::Random;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::island::{Drum, Island, PinConstraint, RigidBody};
+use lariat_ancf::island::{Drum, Island, PinConstraint, RigidBody, Wheels};
 use lariat_ancf::{At, Cable, Damping, Error, Integrator, Method, Reel, Section, StepControl, Vector3};
 use nalgebra::Matrix3;
 
@@ -60,11 +60,11 @@ fn random_drums_take_in_slack_rope_without_failing() {
         for step in 0..steps {
             cable.remesh_reel().unwrap();
             pin.node = 0;
-            let outcome = island.step_with_sheaves(
+            let outcome = island.step_with_wheels(
                 &mut [&mut cable],
                 &mut bodies,
                 &[pin],
-                (&mut [], &[drum]),
+                Wheels { drums: &[drum], ..Wheels::default() },
                 (&GAME).into(),
                 dt,
             );

@@ -31,8 +31,7 @@ use mark::WorldMark;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
-use reel::drum::Wound;
-use reel::sheave::Sheave;
+use reel::Wheels;
 use rules::ContactRules;
 use serde::{Deserialize, Serialize};
 use table::Table;
@@ -96,9 +95,7 @@ pub(crate) struct Contents {
     pub attachments: Table<Attachment>,
     pub junctions: Table<Junction>,
     #[serde(default)]
-    pub sheaves: Table<Sheave>,
-    #[serde(default)]
-    pub drums: Vec<Wound>,
+    pub wheels: Wheels,
     pub records: Records,
     /// The water that bodies are in.
     #[serde(default)]
@@ -120,7 +117,7 @@ pub(crate) struct Contents {
 impl Contents {
     /// Returns the bodies of attachments and drums, some of them more than once.
     pub fn held_bodies(&self) -> impl Iterator<Item = RigidBodyHandle> {
-        self.attachments.values().map(|a| a.body).chain(self.drums.iter().map(|wound| wound.drum.body))
+        self.attachments.values().map(|a| a.body).chain(self.wheels.bodies().map(|(_, body)| body))
     }
 
     /// Adds a cable; its clock is set to that of the others, or of the water.

@@ -1,6 +1,6 @@
 //! Attaching cables to bodies and detaching them.
 
-use super::reel::{drums, sheaves};
+use super::reel;
 use super::world_mark;
 use crate::contents::Contents;
 use crate::contents::attachment::{Attachment, AttachmentKind, AttachmentOptions, AttachmentReading, Gap};
@@ -92,7 +92,7 @@ pub(crate) fn detach(
     contents.changed = true;
     let held = contents.cable(cable)?;
     if node == 0 || node + 1 == held.nodes() {
-        sheaves::remove_at(contents, cable, Some(node == 0))?;
+        reel::sheaves::remove_at(contents, cable, Some(node == 0))?;
     }
     // the reaction estimate is invalid without this cable
     contents.records.record_mut(body).reaction = Vector6::zeros();
@@ -127,7 +127,7 @@ pub(crate) fn end_lost(
         }
     }
     contents.records.retain_existing(world);
-    drums::remove_where(contents, |wound| !world.bodies.contains(wound.drum.body))
+    reel::end_lost(contents, world)
 }
 
 /// Checks that a point of a cable can be attached to a point of a body, and returns the body.

@@ -98,7 +98,7 @@ pub(crate) fn move_bodies(
 /// Returns the cables that are attached to bodies, and those that are tied to them.
 fn with_them(contents: &Contents, bodies: &[RigidBodyHandle]) -> Vec<CableHandle> {
     let attached = contents.attachments.values().filter(|a| bodies.contains(&a.body)).map(|a| a.cable);
-    let wound = contents.drums.iter().filter(|wound| bodies.contains(&wound.drum.body)).map(|wound| wound.cable);
+    let wound = contents.wheels.bodies().filter(|(_, body)| bodies.contains(body)).map(|(cable, _)| cable);
     let mut cables: Vec<CableHandle> = Vec::new();
     for cable in attached.chain(wound) {
         if !cables.contains(&cable) {
@@ -124,7 +124,7 @@ fn check(contents: &Contents, bodies: &[RigidBodyHandle], cables: &[CableHandle]
     for &handle in cables {
         let cable = contents.cable(handle)?;
         let of_others = contents.attachments.values().any(|a| a.cable == handle && !bodies.contains(&a.body));
-        let on_others = contents.drums.iter().any(|wound| wound.cable == handle && !bodies.contains(&wound.drum.body));
+        let on_others = contents.wheels.bodies().any(|(cable, body)| cable == handle && !bodies.contains(&body));
         let is_known = |node: usize| {
             contents.attachments.values().any(|a| (a.cable, a.node) == (handle, node))
                 || contents.junctions.values().any(|j| j.nodes.contains(&(handle, node)))

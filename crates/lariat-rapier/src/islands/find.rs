@@ -1,6 +1,7 @@
 //! Finds the islands of a set.
 
 use super::island::{Island, Member};
+use super::wheels;
 use crate::body::is_integrated;
 use crate::body::proximity;
 use crate::contents::attachment::Attachment;
@@ -44,7 +45,7 @@ struct AttachedNode {
     direction: Option<Vector3<f64>>,
 }
 
-/// What connects cables, beside junctions and sheaves.
+/// What connects cables, beside junctions and wheels.
 #[derive(Clone, Copy)]
 struct Links<'a> {
     nodes: &'a [AttachedNode],
@@ -235,19 +236,17 @@ fn connected(
         let cable = cables[next];
         next += 1;
         let pinned = || nodes.iter().filter(|n| n.role == Role::Integrated).map(|n| (n.cable, n.body));
-        let on_drums = || contents.drums.iter().map(|wound| (wound.cable.0 as usize, wound.drum.body));
+        let wound = || contents.wheels.bodies().map(|(cable, body)| (cable.0 as usize, body));
         let first = |body: RigidBodyHandle| jointed.iter().find(|[b, _]| *b == body).map_or(body, |[_, first]| *first);
-        let integrated =
-            || pinned().chain(on_drums()).chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
+        let integrated = || pinned().chain(wound()).chain(touching.iter().copied()).map(|(c, body)| (c, first(body)));
         let bodies = integrated().filter(|(c, _)| *c == cable).map(|(_, body)| body);
         let over_bodies = bodies.flat_map(|b| integrated().filter(move |(_, body)| *body == b).map(|(c, _)| c));
         let handle = CableHandle(cable as u32);
         let tied = contents.junctions.values().filter(|j| j.nodes.iter().any(|(c, _)| *c == handle));
         let over_junctions = tied.flat_map(|j| j.nodes.iter().map(|(c, _)| c.0 as usize));
-        let sheaves = contents.sheaves.values().filter(|s| s.ends.iter().any(|(c, _)| *c == handle));
-        let over_sheaves = sheaves.flat_map(|s| s.ends.iter().map(|(c, _)| c.0 as usize));
+        let over_wheels = contents.wheels.beside(handle).map(|c| c.0 as usize);
         let met = pairs.iter().filter(|pair| pair.cables.contains(&cable)).flat_map(|pair| pair.cables);
-        for other in over_bodies.chain(over_junctions).chain(over_sheaves).chain(met) {
+        for other in over_bodies.chain(over_junctions).chain(over_wheels).chain(met) {
             if !seen[other] {
                 seen[other] = true;
                 cables.push(other);
@@ -259,15 +258,13 @@ fn connected(
 
 /// Returns the island of `cables`, its members and pins in the order of cables and nodes.
 fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pairs, .. }: Links<'_>) -> Island {
-    let sheaves = contents.sheaves.iter().filter(|(_, sheave)| sheave.within(&cables).is_some());
-    let sheaves = sheaves.map(|(i, _)| i).collect();
     let place = |cable: usize| cables.iter().position(|&c| c == cable);
     let within = pairs.iter().filter_map(|pair| {
         let [Some(a), Some(b)] = pair.cables.map(place) else { return None };
         Some(CablePair { cables: [a.min(b), a.max(b)], ..*pair })
     });
     let pairs = within.collect();
-    let mut island = Island { cables, sheaves, pairs, ..Island::default() };
+    let mut island = Island { cables, pairs, ..Island::default() };
     let mut add = |cable: usize, node: usize, member: Member, attached: Option<&AttachedNode>| {
         // each attachment to a body with prescribed motion has a member of its own
         let shared = !matches!(member, Member::Driven(_));
@@ -302,16 +299,6 @@ fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pai
             }
         }
     }
-    for wound in &contents.drums {
-        if !island.cables.contains(&(wound.cable.0 as usize)) {
-            continue;
-        }
-        let member = Member::Body(wound.drum.body);
-        let body = island.members.iter().position(|m| *m == member).unwrap_or_else(|| {
-            island.members.push(member);
-            island.members.len() - 1
-        });
-        island.drums.extend(wound.within(&island.cables, body));
-    }
+    wheels::add(contents, &mut island);
     island
 }

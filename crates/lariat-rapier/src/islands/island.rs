@@ -1,10 +1,11 @@
 //! An island: cables that are connected, and what connects them.
 
+use super::wheels::Wheels;
 use crate::contents::Contents;
 use crate::error::{Error, Failure};
 use crate::handle::CableHandle;
 use lariat_ancf::contact::CablePair;
-use lariat_ancf::island::{Drum, PinConstraint};
+use lariat_ancf::island::PinConstraint;
 use rapier::dynamics::RigidBodyHandle;
 
 /// Something that pins connect cables to.
@@ -37,9 +38,7 @@ pub(crate) struct Island {
     pub attachments: Vec<Option<usize>>,
     /// Attachments whose nodes have a prescribed position.
     pub supports: Vec<usize>,
-    /// Indices of its sheaves.
-    pub sheaves: Vec<usize>,
-    pub drums: Vec<Drum>,
+    pub wheels: Wheels,
     /// Those of its cables that may touch each other, with indices into the first list.
     pub pairs: Vec<CablePair>,
 }
@@ -53,23 +52,18 @@ impl Island {
             pin
         };
         self.pins.extend(other.pins.into_iter().map(shift));
-        let shift = |mut drum: Drum| {
-            (drum.cable.0, drum.body) = (drum.cable.0 + cables, drum.body + members);
-            drum
-        };
-        self.drums.extend(other.drums.into_iter().map(shift));
+        self.wheels.join(other.wheels, cables, members);
         let shift = |pair: CablePair| CablePair { cables: pair.cables.map(|c| c + cables), ..pair };
         self.pairs.extend(other.pairs.into_iter().map(shift));
         self.cables.extend(other.cables);
         self.members.extend(other.members);
         self.attachments.extend(other.attachments);
         self.supports.extend(other.supports);
-        self.sheaves.extend(other.sheaves);
     }
 
     /// Returns whether nothing connects its cables.
     pub fn is_loose(&self) -> bool {
-        self.members.is_empty() && self.sheaves.is_empty() && self.pairs.is_empty()
+        self.members.is_empty() && self.wheels.is_empty() && self.pairs.is_empty()
     }
 
     /// Returns the handles of its integrated bodies.

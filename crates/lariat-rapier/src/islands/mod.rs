@@ -8,6 +8,7 @@
 
 mod find;
 mod island;
+mod wheels;
 
 pub(crate) use find::Islands;
 pub(crate) use island::{Island, Member};

@@ -420,14 +420,12 @@ pub(crate) fn note(
     events: &mut Vec<Event>,
 ) {
     let dt = f64::from(world.integration_parameters.dt);
-    let Contents { cables, attachments, junctions, sheaves, drums, records, .. } = contents;
+    let Contents { cables, attachments, junctions, wheels, records, .. } = contents;
     for slot in cables.values_mut() {
         (slot.alone, slot.parted, slot.rounding) = (slot.cable.effects().contact.is_none(), false, 0.0);
     }
     let at_junctions = junctions.values().flat_map(|junction| &junction.nodes).map(|(cable, _)| *cable);
-    let at_sheaves = sheaves.values().flat_map(|sheave| sheave.ends()).map(|(cable, _)| cable);
-    let at_drums = drums.iter().map(|drum| drum.cable);
-    for cable in at_junctions.chain(at_sheaves).chain(at_drums) {
+    for cable in at_junctions.chain(wheels.cables()) {
         if let Some(slot) = cables.get_mut(cable.0 as usize) {
             slot.alone = false;
         }

@@ -84,8 +84,7 @@ pub(super) fn solve(
         cables[cable].set_support(At::Node(a.node), support)?;
     }
     let joints = joints::of_island(world, &island)?;
-    let own = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i)?.within(&island.cables));
-    let sheaves: Vec<Sheave> = own.collect();
+    let sheaves: Vec<Sheave> = island.wheels.over(contents, &island.cables).collect();
     let mut members = Vec::new();
     for member in &island.members {
         members.push(match member {
@@ -103,7 +102,8 @@ pub(super) fn solve(
     });
     let in_water: Vec<(usize, StillWater)> = in_water.collect();
     let loads: Vec<(usize, &dyn PlacedLoad)> = in_water.iter().map(|(i, load)| (*i, load as &dyn PlacedLoad)).collect();
-    let links = Links { pins: &island.pins, joints: &joints, sheaves: &sheaves, drums: &island.drums, loads: &loads };
+    let links =
+        Links { pins: &island.pins, joints: &joints, sheaves: &sheaves, drums: &island.wheels.drums, loads: &loads };
     let reports = if members.is_empty() && sheaves.is_empty() {
         cables
             .iter_mut()

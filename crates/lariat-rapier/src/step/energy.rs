@@ -49,7 +49,7 @@ use rapier::pipeline::PhysicsWorld;
 /// Returns whether an island has a balance; `by_law` if it has an energy law.
 fn is_judged(contents: &Contents, island: &Island, by_law: bool) -> bool {
     let moves = island.members.iter().any(|member| !matches!(member, Member::Driven(_)));
-    let plain = by_law || island.sheaves.is_empty() && island.drums.is_empty() && island.pairs.is_empty();
+    let plain = by_law || island.wheels.is_empty() && island.pairs.is_empty();
     let mut slots = island.cables.iter().filter_map(|&cable| contents.cables.get(cable));
     moves && plain && slots.all(|slot| slot.cable.is_watched() && (by_law || slot.cable.effects().contact.is_none()))
 }

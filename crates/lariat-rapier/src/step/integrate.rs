@@ -14,7 +14,7 @@ use core::cell::RefCell;
 #[cfg(feature = "parallel")]
 use lariat_ancf::coupling::{cost_of_step, jobs_of_task};
 use lariat_ancf::integrate::WorkLimit;
-use lariat_ancf::island::Island as IslandSolver;
+use lariat_ancf::island::{Island as IslandSolver, Wheels};
 use lariat_ancf::{Cable, Integrator};
 
 thread_local! {
@@ -55,7 +55,7 @@ impl Job<'_> {
     /// Steps cables and members in equal parts, and adds up the accounts of the pins.
     fn step_island(&mut self, solver: &mut IslandSolver, limit: &WorkLimit) -> Result<(), lariat_ancf::Error> {
         let Job { island, cables, prediction, integrator, h } = self;
-        let Prediction { start, end, accounts, parts, sheaves, coupled, .. } = &mut **prediction;
+        let Prediction { start, end, accounts, parts, wheels, coupled, .. } = &mut **prediction;
         solver.set_cable_pairs(Some(&island.pairs));
         solver.couple(coupled);
         for part in 0..*parts {
@@ -66,7 +66,8 @@ impl Job<'_> {
             }
             let h = *h / f64::from(*parts);
             step_within(limit, integrator, |integrator| {
-                solver.step_with_sheaves(cables, end, &island.pins, (sheaves, &island.drums), integrator, h)
+                let wheels = Wheels { sheaves: wheels, drums: &island.wheels.drums };
+                solver.step_with_wheels(cables, end, &island.pins, wheels, integrator, h)
             })?;
             if part == 0 {
                 accounts.clear();

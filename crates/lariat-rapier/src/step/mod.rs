@@ -406,9 +406,7 @@ fn complete_island(
     predict::complete(contents, island, prediction);
     apply::apply(contents, world, island, prediction, step.h);
     impedance::set_motors(contents, world, island, prediction, step)?;
-    for (&i, wheel) in island.sheaves.iter().zip(&prediction.sheaves) {
-        contents.sheaves.get_mut(i).into_iter().for_each(|sheave| sheave.wheel = *wheel);
-    }
+    island.wheels.keep(contents, &prediction.wheels);
     Ok(())
 }
 

@@ -35,12 +35,13 @@ use crate::step::budget::CHEAPEST;
 use crate::step::energy;
 use crate::step::kinematic_ends;
 use crate::step::prediction::{Prediction, StepParameters};
+use crate::step::reels;
 use crate::step::substepping;
 use ::nalgebra::{Matrix6, Vector6};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::OneStep;
 use lariat_ancf::island::{PinConstraint, RigidBody};
-use lariat_ancf::{Cable, Integrator, StepControl};
+use lariat_ancf::{Integrator, StepControl};
 use rapier::pipeline::PhysicsWorld;
 
 /// Reads members and integrator of an island that will be [integrated](crate::step::integrate) over
@@ -56,21 +57,14 @@ pub(crate) fn prepare(
     let mut integrator = share_of(integrator(contents, island, step), step.rapier_steps);
     let mut least = 0.0;
     prediction.parts = 1;
-    prediction.sheaves.clear();
+    prediction.wheels.clear();
     prediction.start.clear();
     prediction.end.clear();
     prediction.groups.clear();
     prediction.coupled.clear();
-    let sheaves = island.sheaves.iter().filter_map(|&i| contents.sheaves.get(i));
-    prediction.sheaves.extend(sheaves.filter_map(|sheave| sheave.within(&island.cables)));
+    prediction.wheels.extend(island.wheels.over(contents, &island.cables));
     if !island.members.is_empty() {
-        for drum in &island.drums {
-            if let Member::Body(body) = island.members[drum.body]
-                && proximity::is_linked(world, body)
-            {
-                return Err(Error::DrumJoined(body));
-            }
-        }
+        reels::check(world, island)?;
         read_members(contents, world, motions, island, prediction, step)?;
         if island.bodies().next().is_some() {
             if is_controlled(&integrator) {
@@ -264,11 +258,9 @@ fn cable_load(contents: &Contents, island: &Island, member: usize, body: &RigidB
 /// (contact, torsion, clutches, sheaves, drums), of those that are one.
 fn integrator(contents: &Contents, island: &Island, step: &StepParameters) -> Integrator {
     let slots = || island.cables.iter().filter_map(|&c| contents.cables.get(c));
-    let wheels = !(island.sheaves.is_empty() && island.drums.is_empty());
     let by_gradient = |i: &Integrator| i.method.uses_discrete_gradients();
     let can = slots().any(|slot| by_gradient(&slot.cable.integrator()));
-    let needs = |cable: &Cable| cable.effects().need_discrete_gradient() || cable.has_reel_law();
-    let only = can && (wheels || slots().any(|slot| needs(&slot.cable)));
+    let only = can && (!island.wheels.is_empty() || slots().any(|slot| slot.cable.needs_discrete_gradient()));
     let all = || slots().map(|slot| slot.cable.integrator()).filter(|i| !only || by_gradient(i));
     let first = all().next().unwrap_or_default();
     if all().all(|i| i == first) {

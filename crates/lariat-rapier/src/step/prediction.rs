@@ -60,7 +60,7 @@ pub(crate) struct Prediction {
     /// Why the island cannot step.
     pub error: Option<Error>,
     /// By sheave, its predicted state after the step.
-    pub sheaves: Vec<lariat_ancf::island::Sheave>,
+    pub wheels: Vec<lariat_ancf::island::Sheave>,
     /// By pin, what it transmitted in the predicted step.
     pub accounts: Vec<PinAccount>,
     /// Indices of the members that may deviate from the prediction.

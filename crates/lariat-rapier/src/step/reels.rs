@@ -1,11 +1,23 @@
 //! Reels: the arc lengths of attachments and junctions follow the nodes of a cable that a step
 //! moves; their nodes are found anew where elements are split or merged.
 
+use crate::body::proximity;
 use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::CableHandle;
+use crate::islands::Island;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable};
+use rapier::pipeline::PhysicsWorld;
+
+/// Refuses drums that something else than cables moves.
+pub(crate) fn check(world: &PhysicsWorld, island: &Island) -> Result<(), Error> {
+    let bodies = island.wheels.drums.iter().filter_map(|drum| island.members[drum.body].body());
+    bodies
+        .into_iter()
+        .find(|body| proximity::is_linked(world, *body))
+        .map_or(Ok(()), |body| Err(Error::DrumJoined(body)))
+}
 
 /// Splits and merges elements at the eyes of all reels, before a step. Arc lengths stay, numbers of
 /// nodes change.

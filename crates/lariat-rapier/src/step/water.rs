@@ -25,8 +25,8 @@ pub(crate) fn begin(contents: &mut Contents) {
 
 /// Adds the forces over the present Rapier step.
 pub(super) fn put_on(contents: &mut Contents, world: &mut PhysicsWorld, settings: &Settings, host: &HostStep) {
-    let Contents { water: Some(water), attachments, drums, .. } = contents else { return };
-    let coupled = |body| attachments.values().any(|a| a.body == body) || drums.iter().any(|d| d.drum.body == body);
+    let Contents { water: Some(water), attachments, wheels, .. } = contents else { return };
+    let coupled = |body| attachments.values().any(|a| a.body == body) || wheels.bodies().any(|(_, drum)| drum == body);
     let step = (host.share().0 * f64::from(host.dt), f64::from(world.integration_parameters.dt));
     water.put_on(world, step, settings.sleep_speed, coupled);
 }

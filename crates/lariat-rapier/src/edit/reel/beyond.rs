@@ -7,6 +7,7 @@ use lariat_ancf::coupling::Coupling;
 /// Tells each part of a cable how much of it is beyond the sheaves at its ends.
 pub(crate) fn count(contents: &mut Contents) {
     let along: Vec<([CableHandle; 2], f64)> = contents
+        .wheels
         .sheaves
         .values()
         .filter_map(|sheave| Some((sheave.ends.map(|(cable, _)| cable), sheave.along?)))

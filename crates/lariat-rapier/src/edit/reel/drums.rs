@@ -7,10 +7,10 @@ use crate::handle::CableHandle;
 
 /// Ends the drums that `ends` names, and the reels on them.
 pub(crate) fn remove_where(contents: &mut Contents, mut ends: impl FnMut(&Wound) -> bool) -> Result<(), Error> {
-    for i in (0..contents.drums.len()).rev() {
-        let wound = contents.drums[i];
+    for i in (0..contents.wheels.drums.len()).rev() {
+        let wound = contents.wheels.drums[i];
         if ends(&wound) {
-            contents.drums.remove(i);
+            contents.wheels.drums.remove(i);
             contents.changed = true;
             if let Ok(cable) = contents.cable_mut(wound.cable) {
                 cable.remove_reel(wound.at())?;
@@ -22,7 +22,7 @@ pub(crate) fn remove_where(contents: &mut Contents, mut ends: impl FnMut(&Wound)
 
 /// Gives the drum at the end of a cable that was cut to the part behind the cut.
 pub(crate) fn follow_cut(contents: &mut Contents, cable: CableHandle, tail: CableHandle) {
-    for wound in contents.drums.iter_mut().filter(|wound| wound.cable == cable && !wound.start) {
+    for wound in contents.wheels.drums.iter_mut().filter(|wound| wound.cable == cable && !wound.start) {
         wound.cable = tail;
     }
 }

@@ -30,14 +30,14 @@ pub(crate) fn add(
         }
     }
     contents.changed = true;
-    let sheave = SheaveHandle(contents.sheaves.push(Sheave { ends, wheel, along }) as u32);
+    let sheave = SheaveHandle(contents.wheels.sheaves.push(Sheave { ends, wheel, along }) as u32);
     beyond::count(contents);
     Ok(sheave)
 }
 
 /// Ends a sheave: what is on its sides stays there.
 pub(crate) fn remove(contents: &mut Contents, sheave: SheaveHandle) -> Result<(), Error> {
-    let removed = contents.sheaves.remove(sheave.0 as usize).ok_or(Error::NoSheave(sheave))?;
+    let removed = contents.wheels.sheaves.remove(sheave.0 as usize).ok_or(Error::NoSheave(sheave))?;
     contents.changed = true;
     for (cable, at) in removed.ends() {
         if let Ok(cable) = contents.cable_mut(cable) {
@@ -49,9 +49,9 @@ pub(crate) fn remove(contents: &mut Contents, sheave: SheaveHandle) -> Result<()
 
 /// Ends the sheaves at an end of a cable, or at both.
 pub(crate) fn remove_at(contents: &mut Contents, cable: CableHandle, start: Option<bool>) -> Result<(), Error> {
-    for i in 0..contents.sheaves.len() {
+    for i in 0..contents.wheels.sheaves.len() {
         let is_there = |(c, s): &(CableHandle, bool)| *c == cable && start.is_none_or(|start| start == *s);
-        if contents.sheaves.get(i).is_some_and(|sheave| sheave.ends.iter().any(is_there)) {
+        if contents.wheels.sheaves.get(i).is_some_and(|sheave| sheave.ends.iter().any(is_there)) {
             remove(contents, SheaveHandle(i as u32))?;
         }
     }
@@ -60,7 +60,7 @@ pub(crate) fn remove_at(contents: &mut Contents, cable: CableHandle, start: Opti
 
 /// Gives the sheave at the end of a cable that was cut to the part behind the cut.
 pub(crate) fn follow_cut(contents: &mut Contents, cable: CableHandle, tail: CableHandle) {
-    for (of, start) in contents.sheaves.values_mut().flat_map(|sheave| &mut sheave.ends) {
+    for (of, start) in contents.wheels.sheaves.values_mut().flat_map(|sheave| &mut sheave.ends) {
         if *of == cable && !*start {
             *of = tail;
         }

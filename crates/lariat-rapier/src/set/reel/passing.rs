@@ -54,7 +54,7 @@ impl CableSet {
         self.contents.cable(cable)?;
         let beside = |cable: CableHandle, side: usize| {
             let there = |sheave: &&Sheave| sheave.along.is_some() && sheave.ends[side] == (cable, side == 1);
-            self.contents.sheaves.values().find(there).map(|sheave| sheave.ends[1 - side].0)
+            self.contents.wheels.sheaves.values().find(there).map(|sheave| sheave.ends[1 - side].0)
         };
         let mut first = cable;
         while let Some(before) = beside(first, 1) {

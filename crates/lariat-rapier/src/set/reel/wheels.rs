@@ -37,7 +37,7 @@ impl CableSet {
         let reel = Reel { feed: Reel::on_drum().feed, ..reel };
         let start = self.contents.is_start(cable, at)?;
         self.contents.cable_mut(cable)?.add_reel(at, reel)?;
-        self.contents.drums.push(Wound { cable, start, drum });
+        self.contents.wheels.drums.push(Wound { cable, start, drum });
         self.contents.changed = true;
         Ok(())
     }
@@ -60,7 +60,7 @@ impl CableSet {
 
     /// Returns the drums with the ends of cables on them.
     pub fn drums(&self) -> impl Iterator<Item = (CableHandle, At, &Drum)> {
-        self.contents.drums.iter().map(|wound| (wound.cable, wound.at(), &wound.drum))
+        self.contents.wheels.drums.iter().map(|wound| (wound.cable, wound.at(), &wound.drum))
     }
 
     /// Lets a cable run into another over a sheave: `from` and `to` are ends of cables that are
@@ -94,6 +94,6 @@ impl CableSet {
     /// # Errors
     /// [`Error::NoSheave`].
     pub fn sheave(&self, sheave: SheaveHandle) -> Result<&Sheave, Error> {
-        self.contents.sheaves.get(sheave.0 as usize).ok_or(Error::NoSheave(sheave))
+        self.contents.wheels.sheaves.get(sheave.0 as usize).ok_or(Error::NoSheave(sheave))
     }
 }
