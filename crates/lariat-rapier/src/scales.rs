@@ -391,6 +391,11 @@ pub(crate) mod set {
     /// 15 degrees apart, so that a box is missed by less than a thirtieth of its size.
     pub(crate) const PLANES: usize = 24;
 
+    /// Shares of its length in which such a cable turns from the line between its ends. Derived:
+    /// one arc as it is drawn, and the four quarters of a wave, which stay in front of both ends up
+    /// to 5 times the distance of these.
+    pub(crate) const LEADS: [f64; 2] = [0.0, 0.25];
+
     /// Share of its length by which one plane must be clearer than another. Derived: beyond
     /// rounding, so that of planes that are alike the first is taken.
     pub(crate) const SAME_CLEARANCE: f64 = 1e-6;

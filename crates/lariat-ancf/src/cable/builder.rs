@@ -3,7 +3,7 @@
 use super::as_laid::Sagging;
 use super::clamp::{is_turned, unit};
 use super::grading::{self, Grading};
-use super::layout::Laid;
+use super::layout::{Laid, Sag};
 use super::span::Span;
 use super::unstrained::{Kept, unstrain};
 use super::{Cable, Snapshot, layout};
@@ -370,7 +370,7 @@ impl CableBuilder {
         if sections.iter().all(|(_, section)| section.is_rope()) && self.effects.axial_law.is_none() {
             self.effects.axial_law = AxialLaw::of_rope(&self.effects, rule);
         }
-        let mut laid = layout::along_polyline(&self.points, &s, self.gravity);
+        let mut laid = layout::along_polyline(&self.points, &s, Sag::along(self.gravity));
         let kept = self.kept(&s, arc_length)?;
         if self.points.len() > 2 {
             unstrain(&mut laid, &s, &kept, drawn / length);

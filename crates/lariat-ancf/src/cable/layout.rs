@@ -2,7 +2,7 @@
 //!
 //! Nodes are at given arc lengths of the unstretched cable. Drawn between points that are as far
 //! apart as the cable is long, or farther, the cable follows the polyline, stretched evenly. If it
-//! is longer than the polyline, each segment becomes an arc of a circle of the right length,
+//! is longer than the polyline, each segment becomes an [arc](Sag) of a circle of the right length,
 //! sagging along gravity, so that a slack cable starts unstrained. Corners between segments are
 //! rounded by [`unstrained`](super::unstrained).
 
@@ -18,9 +18,27 @@ pub(crate) struct Laid {
     pub corner: Option<[Vector3<f64>; 2]>,
 }
 
+/// How the segments of a slack cable sag, without strain: their slope turns from the chord by
+/// `angle`, with `sin(angle)/angle = chord/arc`, along arcs of circles.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sag {
+    /// Towards where, of any length; zero where they do not.
+    pub towards: Vector3<f64>,
+    /// Share of the segment at each end within which the slope turns from the chord to that angle,
+    /// below 1/2; 0 for one arc, which begins with it. The angle does not depend on it.
+    pub lead: f64,
+}
+
+impl Sag {
+    /// One arc per segment, along gravity.
+    pub fn along(gravity: Vector3<f64>) -> Self {
+        Sag { towards: gravity, lead: 0.0 }
+    }
+}
+
 /// Positions and slopes at the arc lengths `s` (ascending, from 0 to the unstretched length) of a
 /// cable through `points`.
-pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector3<f64>) -> Vec<Laid> {
+pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], sag: Sag) -> Vec<Laid> {
     let length = s[s.len() - 1];
     let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
     let drawn: f64 = chords.iter().sum();
@@ -34,7 +52,7 @@ pub(crate) fn along_polyline(points: &[Vector3<f64>], s: &[f64], gravity: Vector
     let evaluate = |k: usize, s: f64| {
         let arc = at[k + 1] - at[k];
         let x = ((s - at[k]) / arc).clamp(0.0, 1.0);
-        segment(points[k], points[k + 1], arc, x, if slack { gravity } else { Vector3::zeros() })
+        segment(points[k], points[k + 1], arc, x, if slack { sag } else { Sag::default() })
     };
     s.iter()
         .map(|&s| {
@@ -60,25 +78,40 @@ pub(super) fn directions(points: &[Vector3<f64>], s: &[f64]) -> Vec<Vector3<f64>
     let drawn: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
     let share = drawn / s[s.len() - 1];
     let s: Vec<f64> = s.iter().map(|s| s * share).collect();
-    along_polyline(points, &s, Vector3::zeros()).iter().map(|laid| laid.slope.normalize()).collect()
+    along_polyline(points, &s, Sag::default()).iter().map(|laid| laid.slope.normalize()).collect()
 }
 
-/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable; an
-/// arc of a circle towards `sag` if that is not zero, else straight.
-fn segment(a: Vector3<f64>, b: Vector3<f64>, arc: f64, x: f64, sag: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+/// Position and slope at the share `x` of a segment from `a` to `b` that holds `arc` of cable;
+/// [arcs](Sag) of circles towards `sag` if that is not zero, else straight.
+fn segment(
+    a: Vector3<f64>,
+    b: Vector3<f64>,
+    arc: f64,
+    x: f64,
+    Sag { towards, lead }: Sag,
+) -> (Vector3<f64>, Vector3<f64>) {
     let chord = b - a;
     let straight = (a + x * chord, chord / arc);
     let ratio = chord.norm() / arc;
-    if ratio >= 1.0 || sag == Vector3::zeros() && ratio > 0.999_999_999 {
+    if ratio >= 1.0 || towards == Vector3::zeros() && ratio > 0.999_999_999 {
         return straight;
     }
     let along = chord.normalize();
-    let down = normal_of(&along, &sag);
-    let half = half_angle(ratio);
-    let radius = 0.5 * arc / half;
-    let angle = (2.0 * x - 1.0) * half;
-    let position = 0.5 * (a + b) + along * (radius * angle.sin()) + down * (radius * (angle.cos() - half.cos()));
-    (position, along * angle.cos() - down * angle.sin())
+    let down = normal_of(&along, &towards);
+    let most = half_angle(ratio);
+    // the second half is the mirror image of the first
+    let near = x.min(1.0 - x);
+    let (angle, [out, below]) = if near < lead {
+        let (angle, radius) = (most * near / lead, lead * arc / most);
+        (angle, [radius * angle.sin(), radius * (1.0 - angle.cos())])
+    } else {
+        let angle = most * (1.0 - 2.0 * near) / (1.0 - 2.0 * lead);
+        let [first, radius] = [lead * arc / most, (0.5 - lead) * arc / most];
+        let out = first * most.sin() + radius * (most.sin() - angle.sin());
+        (angle, [out, first * (1.0 - most.cos()) + radius * (angle.cos() - most.cos())])
+    };
+    let (end, side) = if x <= 0.5 { (a, 1.0) } else { (b, -1.0) };
+    (end + along * (side * out) + down * below, along * angle.cos() + down * (side * angle.sin()))
 }
 
 /// The unit normal of a direction that is nearest to another, or a fixed one of a parallel.
@@ -119,7 +152,7 @@ mod tests {
     fn a_slack_cable_is_laid_in_an_arc_of_its_own_length_below_the_chord() {
         let points = [Vector3::zeros(), Vector3::new(3.0, 0.0, 0.0)];
         let s: Vec<f64> = (0..=1000).map(|i| 4.0 * f64::from(i) / 1000.0).collect();
-        let (r, t) = unzip(&along_polyline(&points, &s, Vector3::new(0.0, -9.81, 0.0)));
+        let (r, t) = unzip(&along_polyline(&points, &s, Sag::along(Vector3::new(0.0, -9.81, 0.0))));
         let length: f64 = r.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
         assert_relative_eq!(length, 4.0, max_relative = 1e-5);
         assert_relative_eq!(r[0], points[0], epsilon = 1e-12);
@@ -127,10 +160,31 @@ mod tests {
         assert!(r[500].y < -1.0 && t.iter().all(|t| (t.norm() - 1.0).abs() < 1e-12));
     }
 
+    /// With leads a segment has its length too, leaves along its chord at both ends, and stays
+    /// between them.
+    #[test]
+    fn a_lead_leaves_along_the_chord() {
+        for (arc, lead) in [(3.4, 0.25), (6.0, 0.25), (9.0, 0.25), (2.1, 0.1)] {
+            let points = [Vector3::new(1.0, 2.0, 0.0), Vector3::new(3.0, 2.0, 0.0)];
+            let s: Vec<f64> = (0..=4000).map(|i| arc * f64::from(i) / 4000.0).collect();
+            let (r, t) = unzip(&along_polyline(&points, &s, Sag { towards: -Vector3::y(), lead }));
+            let length: f64 = r.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+            assert_relative_eq!(length, arc, max_relative = 1e-5);
+            assert!((0..=4000).step_by(4000).all(|k| (r[k] - points[k / 4000]).norm() < 1e-12));
+            assert!(t.iter().all(|t| (t.norm() - 1.0).abs() < 1e-12));
+            assert!([0, 4000].iter().all(|&k| (t[k] - Vector3::x()).norm() < 1e-12));
+            for k in 1..4000 {
+                let slope = (r[k + 1] - r[k - 1]) / (s[k + 1] - s[k - 1]);
+                assert!((slope - t[k]).norm() < 1e-2, "{k}");
+                assert!((1.0..=3.0).contains(&r[k].x), "{k}: {}", r[k].x);
+            }
+        }
+    }
+
     #[test]
     fn a_taut_cable_follows_the_polyline_evenly_stretched() {
         let points = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0), Vector3::new(1.0, 2.0, 0.0)];
-        let laid = along_polyline(&points, &[0.0, 0.5, 1.0, 1.5], Vector3::zeros());
+        let laid = along_polyline(&points, &[0.0, 0.5, 1.0, 1.5], Sag::default());
         let (r, t) = unzip(&laid);
         assert_relative_eq!(r[1], Vector3::new(1.0, 0.0, 0.0), epsilon = 1e-12);
         assert_relative_eq!(r[2], Vector3::new(1.0, 1.0, 0.0), epsilon = 1e-12);

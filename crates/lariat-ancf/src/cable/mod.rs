@@ -75,7 +75,7 @@ pub(crate) use carried::Layer;
 pub use carried::SharpBend;
 pub(crate) use check::{check_integrator, check_torsion};
 use fearless_simd::Level;
-pub(crate) use layout::along_polyline;
+pub(crate) use layout::{Sag, along_polyline};
 use nalgebra::Vector3;
 pub use reel::ReelReading;
 use serde::{Deserialize, Serialize};

@@ -4,6 +4,7 @@
 //!
 //! The arcs of a slack cable [sag](super::layout) along gravity. Turned about the line from its
 //! first to its last point by an angle, they sag along another direction; what is drawn stays.
+//! With a [lead](Sag::lead) they leave the drawn points along the line between them.
 //!
 //! # Validity
 //!
@@ -19,7 +20,7 @@
 //! Moving what is inside a body out of it: the cable would start strained.
 
 use super::Cable;
-use super::layout::{along_polyline, normal_of};
+use super::layout::{Sag, along_polyline, normal_of};
 use super::unstrained::unstrain;
 use crate::model::{Corner, Drawn};
 use crate::support::SlopeSupport;
@@ -34,7 +35,7 @@ impl Cable {
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).
-    pub(crate) fn turn_slack(&mut self, angle: f64) -> bool {
+    pub(crate) fn turn_slack(&mut self, angle: f64, lead: f64) -> bool {
         if !self.can_turn_slack() {
             return false;
         }
@@ -46,7 +47,7 @@ impl Cable {
         let down = normal_of(&along, &self.gravity());
         let towards = Rotation3::from_axis_angle(&Unit::new_unchecked(along), angle) * down;
         let s = self.node_arc_lengths();
-        let mut laid = along_polyline(points, &s, towards);
+        let mut laid = along_polyline(points, &s, Sag { towards, lead });
         if points.len() > 2 {
             unstrain(&mut laid, &s, &sagging.kept, 1.0);
         }

@@ -139,9 +139,11 @@ pub trait Coupling {
     fn can_turn_slack(&self) -> bool;
 
     /// Lays the arcs of a slack cable anew, turned by an angle (rad) about the line from its first
-    /// to its last point, from the side to which they sag under gravity. Returns whether it has
-    /// done so: the cable must be as it was built, without clamps, and held at drawn points alone.
-    fn turn_slack(&mut self, angle: f64) -> bool;
+    /// to its last point, from the side to which they sag under gravity; they turn into the angle
+    /// at which arcs begin within a share `lead` of each segment at both of its ends, below 1/2.
+    /// Returns whether it has done so: the cable must be as it was built, without clamps, and held
+    /// at drawn points alone.
+    fn turn_slack(&mut self, angle: f64, lead: f64) -> bool;
 
     /// Frees a node that was attached: its position, and its tangent if that was clamped to the
     /// body.
@@ -363,8 +365,8 @@ impl Coupling for Cable {
         Cable::can_turn_slack(self)
     }
 
-    fn turn_slack(&mut self, angle: f64) -> bool {
-        Cable::turn_slack(self, angle)
+    fn turn_slack(&mut self, angle: f64, lead: f64) -> bool {
+        Cable::turn_slack(self, angle, lead)
     }
 
     fn detach(&mut self, at: impl Into<At>) -> Result<(), Error> {

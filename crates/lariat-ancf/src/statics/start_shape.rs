@@ -5,7 +5,7 @@
 //! slack), beyond the last one straight along gravity. If a support has moved by a small share of
 //! the span, the cable is displaced linearly along the span instead.
 
-use crate::cable::along_polyline;
+use crate::cable::{Sag, along_polyline};
 use crate::model::Model;
 use crate::scales::statics::{MAX_SPAN_CHANGE, MIN_OPENING};
 use crate::support::SlopeSupport;
@@ -87,7 +87,7 @@ fn lay_out_span(model: &Model, s: &[f64], q: &mut [f64], ends: Range<usize>) {
     // an arc needs two separate ends: a loop is laid out open, and closed linearly
     let open =
         if (b - a).norm() > MIN_OPENING * length { b } else { b + MIN_OPENING * length * normal(&model.gravity) };
-    let laid = along_polyline(&[a, open], &along, model.gravity);
+    let laid = along_polyline(&[a, open], &along, Sag::along(model.gravity));
     for (i, node) in (ends.start..=ends.end).enumerate() {
         set_position(q, node, laid[i].position + (b - open) * (along[i] / length));
         set_slope(model, q, node, laid[i].slope);

@@ -5,7 +5,8 @@
 //! A cable with contact that is laid in arcs, and runs through a collider of a body that it is
 //! attached to, is turned about the line between its ends: of 24 planes it takes the one in which
 //! the least distance of its centre line from all that it can touch is largest, the nearest to the
-//! plane of gravity of several.
+//! plane of gravity of several. Where none is free, since its arcs begin behind a face that they
+//! leave, they leave along the line between the ends, and are turned likewise.
 //!
 //! # Validity
 //!
@@ -24,7 +25,7 @@ use crate::contents::Contents;
 use crate::error::Error;
 use crate::handle::CableHandle;
 use crate::read::inside::{deepest_beside, depth, held_beside};
-use crate::scales::set::{PLANES, SAME_CLEARANCE, SAMPLES};
+use crate::scales::set::{LEADS, PLANES, SAME_CLEARANCE, SAMPLES};
 use lariat_ancf::Cable;
 use lariat_ancf::coupling::Coupling;
 use rapier::geometry::Collider;
@@ -55,27 +56,37 @@ pub(super) fn draw_outside(contents: &mut Contents, world: &PhysicsWorld, handle
         .collect();
     // what it is attached to has such pieces
     let own = |near: &&Near<'_>| !near.except.is_empty();
-    let runs_through = |cable: &Cable, near: &Near<'_>| deepest_beside(cable, near.collider, &near.except).is_some();
     if !near.iter().filter(own).any(|near| runs_through(&slot.cable, near)) {
         return Ok(());
     }
+    let best = LEADS.iter().find_map(|lead| clearest(&slot.cable, &near, *lead));
+    let Some(cable) = best else { return Ok(()) };
+    *contents.cable_mut(handle)? = cable;
+    Ok(())
+}
+
+fn runs_through(cable: &Cable, near: &Near<'_>) -> bool {
+    deepest_beside(cable, near.collider, &near.except).is_some()
+}
+
+/// Returns a slack cable in the plane in which it is clearest; `None` if it runs through a collider
+/// in each.
+fn clearest(slack: &Cable, near: &[Near<'_>], lead: f64) -> Option<Cable> {
     let mut best: Option<(f64, Cable)> = None;
     for plane in 0..PLANES {
         // 0, 1, -1, 2, -2 ...
         let turn = if plane % 2 == 0 { -(plane as f64) / 2.0 } else { (plane as f64 + 1.0) / 2.0 };
-        let mut cable = slot.cable.clone();
-        if !cable.turn_slack(turn * TAU / PLANES as f64) || near.iter().any(|near| runs_through(&cable, near)) {
+        let mut cable = slack.clone();
+        if !cable.turn_slack(turn * TAU / PLANES as f64, lead) || near.iter().any(|near| runs_through(&cable, near)) {
             continue;
         }
-        let clear = clearance(&cable, &near);
+        let clear = clearance(&cable, near);
         // of planes that are equal but for rounding, the first
         if best.as_ref().is_none_or(|(most, _)| clear > most + SAME_CLEARANCE * cable.length()) {
             best = Some((clear, cable));
         }
     }
-    let Some((_, cable)) = best else { return Ok(()) };
-    *contents.cable_mut(handle)? = cable;
-    Ok(())
+    best.map(|(_, cable)| cable)
 }
 
 /// Returns the least distance in m of a cable from what it can touch; negative inside.

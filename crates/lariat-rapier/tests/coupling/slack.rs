@@ -40,7 +40,7 @@ fn tied(
     (world, set, rope)
 }
 
-/// A slack rope on top of a body begins beside it, whatever its shape, mass and mesh, and what
+/// A slack rope on a body begins beside it, whatever its shape, mass and mesh, and what
 /// falls with it gains no energy.
 ///
 /// *Source.* Conservation of energy: body and rope fall from rest, so the total does not rise above
@@ -52,9 +52,13 @@ fn a_slack_rope_begins_beside_the_body_that_it_is_tied_to() {
         (SharedShape::ball(0.15), [0.0, 0.15, 0.0]),
         (SharedShape::cuboid(0.2, 0.1, 0.3), [0.1, 0.1, 0.05]),
         (SharedShape::cylinder(0.1, 0.2), [0.0, 0.1, 0.0]),
+        // a side face, towards the other end
+        (SharedShape::cuboid(0.1, 0.1, 0.1), [-0.1, 0.0, 0.0]),
+        (SharedShape::cuboid(0.3, 0.5, 0.7), [-0.3, 0.1, -0.2]),
+        (SharedShape::ball(0.3), [-0.3, 0.0, 0.0]),
     ];
     for (k, (shape, anchor)) in shapes.into_iter().enumerate() {
-        for (mass, length, elements) in [(10.0, 3.4, 16), (1.0, 2.6, 12), (40.0, 3.0, 30)] {
+        for (mass, length, elements) in [(10.0, 3.4, 16), (1.0, 2.6, 12), (40.0, 3.0, 30), (5.0, 4.5, 24)] {
             for late in [false, true] {
                 let case = format!("shape {k}, {mass} kg, {length} m in {elements}, late: {late}");
                 let (mut world, mut set, rope) = tied(shape.clone(), mass, anchor, length, elements, late);
