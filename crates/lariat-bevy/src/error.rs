@@ -25,6 +25,9 @@ pub enum Error {
     /// An attachment to an entity without a body.
     #[error("entity {0} has no body")]
     NotABody(Entity),
+    /// An attachment of which an end is missing: it was not given, or its entity was despawned.
+    #[error("an attachment has no {0}: none was given, or that entity was despawned")]
+    Incomplete(&'static str),
     /// A [`BreakForce`](crate::BreakForce) that is not positive.
     #[error("the force at which an attachment breaks is {0} N: must be > 0")]
     BreakForce(f64),

@@ -72,7 +72,15 @@ pub(crate) fn update(
                 cables.events.push(AttachmentEnded { entity, cable, body, reason }.into());
                 continue;
             }
-        } else if !complete || (failed && !changed) {
+        } else if failed && !changed {
+            continue;
+        } else if !complete {
+            // one that was released is no failure, and neither is one that was told of
+            if attachment.is_added() {
+                let error = Error::Incomplete(if on.is_none() { "cable" } else { "body" });
+                commands.entity(entity).insert(NotAttachable);
+                cables.events.push(AttachmentFailed { entity, error }.into());
+            }
             continue;
         }
         let Some(cable) = on.map(|on| on.0) else { continue };

@@ -41,6 +41,14 @@ pub(crate) fn update(
         }
         let added = links.handle(sheave.from.0).and_then(|from| {
             let to = links.handle(sheave.to.0)?;
+            for (cable, at) in [(from, sheave.from.1), (to, sheave.to.1)] {
+                let cable = set.get(cable)?;
+                let support = cable.support(at)?;
+                if !support.attached && support.position.is_none() {
+                    let reason = "its end at the sheave is held by nothing: attach both cables there";
+                    return Err(lariat_ancf::Error::ReelPlace { cable: cable.name().to_string(), reason }.into());
+                }
+            }
             Ok(set.add_sheave((from, sheave.from.1), (to, sheave.to.1), sheave.options)?)
         });
         let link = SheaveLink { made: *sheave, handle: added.as_ref().ok().copied() };

@@ -6,7 +6,7 @@ use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
 use core::cell::RefCell;
 use lariat_bevy::{
     At, Attachment, Bending, BreakForce, BreakTension, Cable, CableStep, Contact, Drag, Drum, Gap, Junction, Physics,
-    RapierStep, Reel, Rope, Section, SpawnRope, Torsion, lariat_ancf,
+    RapierStep, Reel, Rope, Section, Sheave, SpawnRope, Torsion, lariat_ancf,
 };
 
 thread_local! {
@@ -234,6 +234,24 @@ const MISTAKES: &[Mistake] = &[
             world.spawn(Junction::between((rope, At::End), (other, At::Start)));
         },
         &["JunctionFailed", "1.000e0 m from what it is to be attached to", "(see Gap)"],
+    ),
+    (
+        "an attachment to a body that was despawned",
+        |world| {
+            let [rope, load] = above(world, steel());
+            world.spawn(Attachment::ball(rope, At::End).to(load).at([0.0, 0.1, 0.0]));
+            world.despawn(load);
+        },
+        &["AttachmentFailed", "has no body", "despawned"],
+    ),
+    (
+        "a sheave between ends that nothing holds",
+        |world| {
+            let [rope, _] = above(world, steel());
+            let other = world.spawn(Cable::steel_rope(0.008).between([0.0, -2.0, 0.0], [1.0, -1.5, 0.0])).id();
+            world.spawn(Sheave::between((rope, At::End), (other, At::Start)));
+        },
+        &["SheaveFailed", "held by nothing", "attach both cables there"],
     ),
     (
         "a drum that is no body",
