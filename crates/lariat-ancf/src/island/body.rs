@@ -91,10 +91,12 @@ pub struct RigidBody {
     /// Inertia of the bodies that move with it, beyond its own, about its centre of mass in world
     /// axes: velocity before angular velocity (kg, kg m, kg m^2). Default: none.
     pub carried: Option<Matrix6<f64>>,
-    /// Part of `torque` in N m, in world axes at the present attitude, that turns with the body, as
-    /// does the carried inertia under the [discrete
-    /// gradient](crate::integrate::discrete_gradient). Default: zero.
+    /// Part of `torque` in N m, in world axes, that turns with the body, as does the carried
+    /// inertia under the [discrete gradient](crate::integrate::discrete_gradient). Default: zero.
     pub turning_torque: Vector3<f64>,
+    /// Attitude of the body at which what turns with it is as given: `carried`, `turning_torque`,
+    /// and the [inertia](super::CoupledInertia) that couples it. Default: the present one.
+    pub carried_at: Option<UnitQuaternion<f64>>,
     /// Whether the gyroscopic torque -omega x I omega acts (some engines omit it). Default: true.
     pub gyroscopic: bool,
     /// Accelerations that integrators carry from step to step; `None` if the state is not the
@@ -175,6 +177,7 @@ impl RigidBody {
             free: [true; 6],
             carried: None,
             turning_torque: Vector3::zeros(),
+            carried_at: None,
             gyroscopic: true,
             memory: None,
             unsteadiness: Default::default(),
@@ -239,6 +242,11 @@ impl RigidBody {
     pub fn world_inertia(&self, rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
         let r = rotation.to_rotation_matrix();
         r * self.inertia * r.transpose()
+    }
+
+    /// Returns the attitude at which what turns with it is as given.
+    pub(super) fn attitude_of_carried(&self) -> UnitQuaternion<f64> {
+        self.carried_at.unwrap_or(self.rotation)
     }
 
     /// Returns momentum and angular momentum about the centre of mass of the carried inertia, at

@@ -32,8 +32,8 @@ pub struct CoupledInertia {
     /// Indices of the bodies.
     pub bodies: [usize; 2],
     /// Momentum and angular momentum of the first per velocity and angular velocity of the second,
-    /// in world axes about their centres of mass, when the step begins (kg, kg m, kg m^2). Its
-    /// transpose couples the second to the first.
+    /// in world axes about their centres of mass, [when](super::RigidBody::carried_at) the step
+    /// begins (kg, kg m, kg m^2). Its transpose couples the second to the first.
     pub matrix: Matrix6<f64>,
 }
 
@@ -44,8 +44,8 @@ impl CoupledInertia {
         [(one, self.matrix * velocity(two)), (two, self.matrix.tr_mul(&velocity(one)))]
     }
 
-    /// Returns it with the rotations of both bodies in axes that are turned from the present ones
-    /// by `turns`.
+    /// Returns it with the rotations of both bodies in axes that are turned from those in which it
+    /// is by `turns`.
     pub(super) fn turned(&self, turns: [UnitQuaternion<f64>; 2]) -> Self {
         let [one, two] = turns.map(|turn| {
             let mut both = Matrix6::identity();

@@ -82,6 +82,7 @@ pub fn rigid_body(world: &PhysicsWorld, handle: RigidBodyHandle) -> Option<Rigid
         ],
         carried: None,
         turning_torque: Vector3::zeros(),
+        carried_at: None,
         gyroscopic: body.gyroscopic_forces_enabled(),
         memory: None,
         unsteadiness: Default::default(),

@@ -67,9 +67,13 @@ pub(crate) fn own_inertia(body: &RigidBody) -> Matrix6<f64> {
 /// Returns the inertia of a body alone after a time (s) of the present motion.
 fn inertia_in(body: &RigidBody, time: f64) -> Matrix6<f64> {
     let mut inertia = Matrix6::identity() * body.mass;
-    let attitude = UnitQuaternion::from_scaled_axis(body.angular_velocity * time) * body.rotation;
-    inertia.fixed_view_mut::<3, 3>(3, 3).copy_from(&body.world_inertia(&attitude));
+    inertia.fixed_view_mut::<3, 3>(3, 3).copy_from(&body.world_inertia(&attitude_in(body, time)));
     inertia
+}
+
+/// Returns the attitude of a body after a time (s) of the present motion.
+fn attitude_in(body: &RigidBody, time: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_scaled_axis(body.angular_velocity * time) * body.rotation
 }
 
 impl Group {
@@ -114,6 +118,7 @@ impl Group {
         for (a, &m) in self.members.iter().enumerate() {
             let body = &mut bodies[m];
             body.carried = Some(Self::block(&self.inertia, a, a) - inertia_in(body, self.half_step));
+            body.carried_at = Some(attitude_in(body, self.half_step));
             for x in 0..3 {
                 body.force[x] += loads[6 * a + x];
                 body.torque[x] += loads[6 * a + 3 + x];

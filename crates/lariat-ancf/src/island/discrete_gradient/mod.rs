@@ -122,7 +122,7 @@ impl StepBuffers {
         self.bodies.clear();
         self.bodies.extend(layout.bodies.iter().map(BodyStep::new));
         self.coupled.clear();
-        let inverse = |i: usize| layout.bodies[i].rotation.inverse();
+        let inverse = |i: usize| layout.bodies[i].attitude_of_carried().inverse();
         self.coupled.extend(layout.coupled.iter().map(|coupled| coupled.turned(coupled.bodies.map(inverse))));
         self.rows.resize(6 * layout.bodies.len(), 0.0);
         self.cables.resize_with(layout.parts.len(), CableBuffers::default);

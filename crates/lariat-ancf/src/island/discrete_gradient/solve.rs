@@ -56,7 +56,7 @@ impl IslandStep<'_, '_> {
         for (i, body) in bodies.iter().enumerate() {
             matrix.add_inertia(i, &body.world_matrix());
         }
-        let rotation = |i: usize| bodies[i].rotation;
+        let rotation = |i: usize| bodies[i].middle;
         coupled.iter().for_each(|coupled| matrix.add_coupled(&coupled.turned(coupled.bodies.map(rotation))));
         for (c, ((cable, own), part)) in self.cables.iter().zip(own.iter()).zip(parts).enumerate() {
             for hold in &own.holds {
