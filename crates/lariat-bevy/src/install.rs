@@ -91,6 +91,7 @@ fn add_prepare(schedule: &mut Schedule) {
             junctions::update,
             sheaves::update,
             attachments::update,
+            sheaves::end_unheld,
             passing::update,
             kinks::update,
             drums::update,

@@ -41,20 +41,36 @@ pub(crate) fn update(
         }
         let added = links.handle(sheave.from.0).and_then(|from| {
             let to = links.handle(sheave.to.0)?;
-            for (cable, at) in [(from, sheave.from.1), (to, sheave.to.1)] {
-                let cable = set.get(cable)?;
-                let support = cable.support(at)?;
-                if !support.attached && support.position.is_none() {
-                    let reason = "its end at the sheave is held by nothing: attach both cables there";
-                    return Err(lariat_ancf::Error::ReelPlace { cable: cable.name().to_string(), reason }.into());
-                }
-            }
             Ok(set.add_sheave((from, sheave.from.1), (to, sheave.to.1), sheave.options)?)
         });
         let link = SheaveLink { made: *sheave, handle: added.as_ref().ok().copied() };
         links.sheaves.insert(entity, link);
         if let Err(error) = added {
             events.push(SheaveFailed { entity, error }.into());
+        }
+    }
+}
+
+/// Ends the sheaves at ends that nothing holds, with which no cable could step; attachments are made by now.
+pub(crate) fn end_unheld(mut cables: ResMut<Cables>) {
+    let Cables { set, links, events, .. } = &mut *cables;
+    for (entity, link) in &mut links.sheaves {
+        let Some((handle, sheave)) = link.handle.and_then(|handle| Some((handle, set.sheave(handle).ok()?))) else {
+            continue;
+        };
+        let unheld = sheave.ends().into_iter().find_map(|(cable, at)| {
+            let cable = set.get(cable).ok()?;
+            let support = cable.support(at).ok()?;
+            (!support.attached && support.position.is_none()).then(|| cable.name().to_string())
+        });
+        if let Some(cable) = unheld {
+            // it was there just now
+            let _ = set.remove_sheave(handle);
+            link.handle = None;
+            let reason = "its end at the sheave is held by nothing: attach both cables there";
+            events.push(
+                SheaveFailed { entity: *entity, error: lariat_ancf::Error::ReelPlace { cable, reason }.into() }.into(),
+            );
         }
     }
 }
