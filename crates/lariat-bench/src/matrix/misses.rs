@@ -11,6 +11,9 @@ use serde::Deserialize;
 /// A change of a missed value by more than this factor is reported.
 const SIGNIFICANT: f64 = 2.0;
 
+/// Share of its bound above which a value may be listed as missed.
+const NEAR: f64 = 0.9;
+
 /// A law that a pair misses.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Miss {
@@ -57,7 +60,9 @@ pub fn differences(rows: &[Row], known: &[Miss]) -> Vec<String> {
     let of_row = |row: &Row| {
         let name = row.pair.to_string();
         let listed: Vec<&Miss> = known.iter().filter(|m| m.pair == name).collect();
-        misses::differences(&name, (&of(row), &row.outcome.details()), &listed)
+        let near = |c: &Check| c.value.abs() > NEAR * c.nearer_bound().abs();
+        let is_near = |kind: &str| row.checks.iter().any(|c| c.quantity == kind && near(c));
+        misses::differences(&name, (&of(row), &row.outcome.details()), &listed, is_near)
     };
     rows.iter().flat_map(of_row).collect()
 }

@@ -112,7 +112,7 @@ pub fn differences(rows: &[Row], known: &[Miss]) -> Vec<String> {
     let of_row = |row: &Row| {
         let name = run_name(row);
         let listed: Vec<&Miss> = known.iter().filter(|m| m.run() == name).collect();
-        misses::differences(&name, (&of(row), &row.outcome.details()), &listed)
+        misses::differences(&name, (&of(row), &row.outcome.details()), &listed, |_| false)
     };
     rows.iter().flat_map(of_row).collect()
 }
