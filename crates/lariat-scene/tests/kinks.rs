@@ -87,14 +87,19 @@ fn catenaries() -> Vec<[f64; 3]> {
     [1.0, 2.5, AT, 6.0, 9.0].iter().map(|s| place(h, v, *s)).collect()
 }
 
-/// Without stiffness positions converge with the second order at least; without the key with the first.
+/// A stiffness that does nothing, and with which a cable has the kinks alone that are given.
+const LITTLE: f64 = 1e-9;
+
+/// Without stiffness positions converge with the second order at least, by kinks that are given or found; without kinks with the first.
 #[test]
 fn a_loaded_limp_cable_converges_with_the_second_order() {
     let exact = catenaries();
-    let errors = |kinks: &str| -> Vec<f64> {
-        [2, 4, 8, 16, 32].iter().map(|n| off(&points(&run(&loaded(*n, kinks, 0.0), Purpose::Static)), &exact)).collect()
+    let errors = |kinks: &str, bending: f64| -> Vec<f64> {
+        let error = |n| off(&points(&run(&loaded(n, kinks, bending), Purpose::Static)), &exact);
+        [2, 4, 8, 16, 32].into_iter().map(error).collect()
     };
-    let (with, without) = (errors("kinks = [4.0]\n"), errors(""));
+    let (with, without) = (errors("kinks = [4.0]\n", 0.0), errors("", LITTLE));
+    assert_eq!(errors("", 0.0), with);
     println!("with {with:?}, without {without:?}");
     for pair in with.windows(2).filter(|pair| pair[0] > 1e-5) {
         assert!((pair[0] / pair[1]).log2() >= 1.9, "{with:?}");
@@ -256,14 +261,14 @@ fn chosen_points_are_not_given() {
 /// their length l; with weight, the same scene with 64 elements each.
 #[test]
 fn a_net_of_two_by_two_is_right_with_four_elements() {
-    let net = |elements: &str, kinks: bool| {
+    let net = |elements: &str, kinks: bool, bending: f64| {
         let mut text = "engine = \"rapier\"\n".to_string();
         let lines = [("a", 1.0, 0.0), ("b", 1.0, 1.0), ("c", 0.0, 0.0), ("d", 0.0, 1.0)];
         for (name, along, k) in lines {
             let (x, z) = if along == 1.0 { ([-1.5, 1.5], [k - 0.5; 2]) } else { ([k - 0.5; 2], [-1.5, 1.5]) };
             text += &format!(
                 "[[cable]]\nname = \"{name}\"\npoints = [[{:?}, 0.0, {:?}], [{:?}, 0.0, {:?}]]\nelements = {elements}\naxial_stiffness = 1e4\n\
-                 bending_stiffness = 0.0\nmass_per_length = 0.05\n{}",
+                 bending_stiffness = {bending:?}\nmass_per_length = 0.05\n{}",
                 x[0],
                 z[0],
                 x[1],
@@ -290,9 +295,11 @@ fn a_net_of_two_by_two_is_right_with_four_elements() {
         let run = run(&text, Purpose::Static);
         ["ac", "ad", "bc", "bd"].map(|name| last::<3>(&run, name, 1)).to_vec()
     };
-    let exact = net("96", true);
-    let [with, without] = [true, false].map(|kinks| off(&net("4", kinks), &exact));
-    let found = off(&net("{ count = 4, finest = \"auto\" }", false), &exact);
+    let exact = net("96", true, 0.0);
+    let [with, without] = [(true, 0.0), (false, LITTLE)].map(|(kinks, bending)| off(&net("4", kinks, bending), &exact));
+    let [found, auto] =
+        ["4", "{ count = 4, finest = \"auto\" }"].map(|elements| off(&net(elements, false, 0.0), &exact));
+    assert!((auto - found).abs() < 1e-9, "{auto} {found}");
     println!(
         "net of 2 x 2: sag {:.4} m, off by {with:.1e} m with kinks, {found:.1e} m with those found, {without:.1e} m without",
         exact[0][1]
@@ -305,7 +312,7 @@ fn a_net_of_two_by_two_is_right_with_four_elements() {
 /// *Source.* The same scene with four times as many; and equilibrium: its supports carry the loads and the weight.
 #[test]
 fn a_net_of_ten_by_ten_is_right_with_an_element_per_mesh() {
-    let net = |elements: &str, kinks: bool| {
+    let net = |elements: &str, kinks: bool, bending: f64| {
         let mut text = "engine = \"rapier\"\n".to_string();
         let crossings: Vec<String> = (1..11).map(|k| format!("{:?}", f64::from(k))).collect();
         let kinks = if kinks { format!("kinks = [{}]\n", crossings.join(", ")) } else { String::new() };
@@ -313,7 +320,7 @@ fn a_net_of_ten_by_ten_is_right_with_an_element_per_mesh() {
             for (name, a, b) in [("x", [0, k], [11, k]), ("z", [k, 0], [k, 11])] {
                 text += &format!(
                     "[[cable]]\nname = \"{name}{k}\"\npoints = [[{}.0, 0.0, {}.0], [{}.0, 0.0, {}.0]]\nelements = {elements}\naxial_stiffness = 1e4\n\
-                     bending_stiffness = 0.0\nmass_per_length = 0.05\n{kinks}",
+                     bending_stiffness = {bending:?}\nmass_per_length = 0.05\n{kinks}",
                     a[0], a[1], b[0], b[1]
                 );
                 for at in ["start", "end"] {
@@ -333,9 +340,12 @@ fn a_net_of_ten_by_ten_is_right_with_an_element_per_mesh() {
         let run = run(&text, Purpose::Static);
         [1, 3, 5, 6, 8, 10].map(|k| last::<3>(&run, &k.to_string(), 1)).to_vec()
     };
-    let exact = net("44", true);
-    let [with, without] = [true, false].map(|kinks| off(&net("11", kinks), &exact));
-    let found = off(&net("{ count = 11, finest = \"auto\" }", false), &exact);
+    let exact = net("44", true, 0.0);
+    let [with, without] =
+        [(true, 0.0), (false, LITTLE)].map(|(kinks, bending)| off(&net("11", kinks, bending), &exact));
+    let [found, auto] =
+        ["11", "{ count = 11, finest = \"auto\" }"].map(|elements| off(&net(elements, false, 0.0), &exact));
+    assert!((auto - found).abs() < 1e-9, "{auto} {found}");
     println!(
         "net of 10 x 10: sag {:.4} m, off by {with:.1e} m with kinks, {found:.1e} m with those found, {without:.1e} m without",
         exact[2][1]

@@ -46,10 +46,10 @@ table! {
         /// least two.
         elements: ElementsTable = 10, ELEMENTS;
         /// Points between the ends at which the slope is free on both sides, as at a hinge: where a point load, a junction or a ball
-        /// attachment bends a cable that is limp, `sqrt(EI/T)` far below an element; one with stiffness wants `elements` that are fine there. It
-        /// stays one cable, and no moment goes through them.
-        /// Need `engine = "rapier"`. An equilibrium is that of the scene.
-        kinks: Option<Vec<Position>> = ("none"), Kind::List(&POSITION), "m";
+        /// attachment bends a cable that is limp, `sqrt(EI/T)` far below an element; one with stiffness wants `elements` that are fine there. A
+        /// cable without bending stiffness and without a reel has all such points by itself, but for `engine = "none"`. It stays one cable, and
+        /// no moment goes through them. Need `engine = "rapier"`. An equilibrium is that of the scene.
+        kinks: Option<Vec<Position>> = ("none, or without `bending_stiffness` all such points"), Kind::List(&POSITION), "m";
         /// Shape of a solid section, or a rope or chain by name and nominal diameter; or the three stiffnesses.
         section: Option<SectionForm> = ("required without the three stiffnesses"), Kind::Table(&SECTION), "m";
         /// Density of the material, beside a solid `section`.

@@ -21,7 +21,6 @@ table! {
         count: u64 = required, Kind::Whole(1, MOST);
         /// Length of the elements at the points, less than the mean length. `"auto"` finds the equilibrium of the scene first, and makes
         /// elements of `2 sqrt(EI/T)` wherever the cable bends more sharply than even ones can: at clamps, loads, junctions and attachments.
-        /// A cable without EI gets `kinks` at those between its ends.
         finest: Finest = required, Kind::Either(&[Kind::Choice(Auto::names), Kind::Number(POSITIVE)]), "m";
         /// The points, which get nodes. Not where material runs through an end. `"auto"` chooses them.
         at: Option<Vec<Position>> = ("both ends"), Kind::List(&POSITION), "m";

@@ -39,11 +39,12 @@ pub(super) struct Turning<'a> {
     pub attachments: &'a [AttachmentTable],
 }
 
-/// Finds the kinks of the cables whose mesh [statics choose](Fine::ByStatics): of those without bending stiffness, all points between the ends
-/// where a load, a junction or a ball attachment can turn them. None where a kink is refused; there statics choose short elements.
+/// Finds the kinks of the cables without bending stiffness: all points between the ends where a load, a junction or a ball attachment can turn
+/// them. None where a kink is refused, or a reel moves material through such points.
 pub(super) fn find(doc: &Document<'_>, scene: &mut Scene, turning: &Turning<'_>) -> Result<(), Error> {
-    for (c, cable) in scene.cables.iter_mut().enumerate() {
-        let limp = cable.fine == Fine::ByStatics && cable.sections.iter().all(|(_, own)| own.bending_stiffness == 0.0);
+    for c in 0..scene.parts.len() {
+        let cable = &mut scene.cables[c];
+        let limp = cable.reel.is_none() && cable.sections.iter().all(|(_, own)| own.bending_stiffness == 0.0);
         let touches_itself = cable.effects.contact.is_some_and(|contact| contact.itself);
         if !limp || scene.parts[c].len() > 1 || cable.effects.torsion.is_some() || touches_itself || cable.equilibrium {
             continue;
