@@ -402,6 +402,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::UnsolvedSteps { cable: cable(), steps, hidden_j: 1.0 },
         Warning::Sinks { cable: cable(), arc_length_m: 0.5, share: 0.5, enough },
         Warning::CoarseContact { cable: cable(), arc_length_m: 0.5, turn_rad: 1.0, enough },
+        Warning::CoarseTouchdown { cable: cable(), arc_length_m: 0.5, share: 0.01, enough },
         Warning::HighRestitution { cable: cable(), restitution: 1.0 },
         Warning::Overloaded { cable: cable(), time_s, tension_n: 2.0, bears_n: 1.0 },
         Warning::RunsOver { cable: cable(), arc_length_m: 0.5, run_m: 0.1 },

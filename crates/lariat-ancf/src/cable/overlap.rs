@@ -3,12 +3,45 @@
 use super::Cable;
 use crate::contact::{Overlap, between_samples};
 use crate::element::shape::{self, combine};
-use crate::scales::cable::{BETWEEN, OVERLAP_POINTS, SAME_SIDE};
+use crate::scales::cable::{BETWEEN, OVERLAP_POINTS, SAME_SIDE, TOUCHDOWN_ERROR};
 use crate::scales::contact::RAMP;
 use core::ops::RangeInclusive;
 use nalgebra::Vector3;
 
 impl Cable {
+    /// Returns the largest share of its tension by which the cable may be off since it leaves an
+    /// obstacle within an element, and the arc length (m) there. Equation and validity:
+    /// `warning/contact.rs`.
+    pub(crate) fn touchdown_quality(&self) -> [f64; 2] {
+        let (q, mut worst) = (self.positions(), [0.0; 2]);
+        let mut touched = self.snapshot.state.memory.contacts.iter().map(|touch| touch.element as usize).peekable();
+        let (mut begin, mut before) = (0.0, None);
+        for (e, element) in self.elements().iter().enumerate() {
+            let mut touches = false;
+            while touched.next_if_eq(&e).is_some() {
+                touches = true;
+            }
+            if before.is_some_and(|before| before != touches) && !self.model.is_at_eye(e) {
+                // the element that touches last, and the one beside it
+                let pair = [e - 1, e].map(|e| &self.elements()[e]);
+                let [a, b] = [e - 1, e + 1].map(|node| Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]));
+                let turn = a.cross(&b).norm().atan2(a.dot(&b));
+                let length = f64::max(pair[0].length, pair[1].length);
+                let mass = f64::max(pair[0].section.mass_per_length, pair[1].section.mass_per_length);
+                let off = turn * length * mass * self.gravity().norm() / TOUCHDOWN_ERROR;
+                if off > worst[1] {
+                    worst = [begin, off];
+                }
+            }
+            (begin, before) = (begin + element.length, Some(touches));
+        }
+        if worst[1] > 0.0 {
+            let tension = self.peak_tension().1;
+            worst[1] = if tension > 0.0 { worst[1] / tension } else { 0.0 };
+        }
+        worst
+    }
+
     /// Returns the largest depth of the centre line between samples in obstacles that no body of an
     /// island carries, as a share of its radius: arc length in m and share; and the largest angle
     /// in rad by which an element turns that touches, as a share of that which a `turn` has.

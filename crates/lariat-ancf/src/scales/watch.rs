@@ -91,6 +91,10 @@ pub(crate) const DEPTH: f64 = 0.2;
 /// drum.
 pub(crate) const CONTACT_TURN: f64 = core::f64::consts::TAU / 9.0;
 
+/// Share of its tension by which a touchdown within an element may be off. Unknown: as that of
+/// lengths.
+pub(crate) const TOUCHDOWN: f64 = 2e-3;
+
 /// The angle that is advised. Unknown: twelve elements around a drum.
 pub(crate) const ADVISED: f64 = core::f64::consts::TAU / 12.0;
 

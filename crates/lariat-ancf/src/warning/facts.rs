@@ -53,6 +53,7 @@ impl Warning {
             | Warning::NotResolved { .. }
             | Warning::Sinks { .. }
             | Warning::CoarseContact { .. }
+            | Warning::CoarseTouchdown { .. }
             | Warning::CoarseTwist { .. } => Level::Coarse,
         }
     }
@@ -90,6 +91,7 @@ impl Warning {
             | Warning::NotResolved { cable, .. }
             | Warning::Sinks { cable, .. }
             | Warning::CoarseContact { cable, .. }
+            | Warning::CoarseTouchdown { cable, .. }
             | Warning::HighRestitution { cable, .. }
             | Warning::FrictionLags { cable, .. }
             | Warning::Facets { cable, .. }
@@ -148,6 +150,7 @@ impl Judged for Warning {
             | Warning::SlowBending { .. }
             | Warning::CoarseMoment { .. }
             | Warning::CoarseKink { .. }
+            | Warning::CoarseTouchdown { .. }
             | Warning::HighRestitution { .. }
             | Warning::RunsOver { .. }
             | Warning::IdleTorsion { .. }
@@ -202,6 +205,7 @@ impl Judged for Warning {
             Warning::FastReel { ratio, .. }
             | Warning::CoarseTwist { ratio, .. }
             | Warning::StiffTorsion { ratio, .. }
+            | Warning::CoarseTouchdown { share: ratio, .. }
             | Warning::KinksThroughItself { share: ratio, .. } => *ratio,
             Warning::MomentAlong { part_nm, .. } => *part_nm,
             Warning::SlowReel { asked_m, given_m, .. } => (asked_m - given_m).abs(),

@@ -442,6 +442,22 @@ pub enum Warning {
         /// Number of elements that would do.
         enough: usize,
     },
+    /// It leaves what it lies on within an element that is long for that.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m it leaves what it lies on within an element, and its tension is off by up to {:.2} % of the largest: try \
+         `elements({enough})`",
+        100.0 * share
+    )]
+    CoarseTouchdown {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length in m where that element begins.
+        arc_length_m: f64,
+        /// Share of the largest tension.
+        share: f64,
+        /// Number of elements that would do.
+        enough: usize,
+    },
     /// It touches something off which it should bounce with more of its velocity than it can.
     #[error(
         "cable {cable:?}: with what it touches it has a coefficient of restitution of {restitution}, and impacts of cables have at most 15/17: it leaves with less"

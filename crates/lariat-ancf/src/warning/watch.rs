@@ -27,7 +27,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 30] = [
+const LAWS: [(Law, bool); 31] = [
     (|watch, cable, _| watch.contacts.starts_inside(cable), true),
     (Watch::strain, true),
     (Watch::mesh, true),
@@ -40,6 +40,7 @@ const LAWS: [(Law, bool); 30] = [
     (Watch::rounded_ends, false),
     (|watch, cable, _| watch.contacts.sinks(cable), true),
     (|watch, cable, _| watch.contacts.coarse(cable), true),
+    (|watch, cable, _| watch.contacts.touchdown(cable), true),
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
     (|_, cable, _| breaks_again(cable, cable.snapshot.load.breaks()), true),

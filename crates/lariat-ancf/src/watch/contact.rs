@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Contacts {
     pub(crate) depth: Excess,
     pub(crate) turn: Excess,
+    #[serde(default)]
+    pub(crate) touchdown: Excess,
     /// Key of the obstacle in which the cable was deepest when obstacles came, its arc length there
     /// and its depth, in m.
     #[serde(default)]

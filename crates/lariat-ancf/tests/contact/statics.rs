@@ -244,6 +244,45 @@ fn a_mooring_line_has_the_tension_of_the_elastic_catenary_at_any_offset_and_mesh
     assert!(told[0] > 0 && told[2] == 0, "{told:?}");
 }
 
+/// At 100 offsets, with 20 to 160 elements, the line is found; where the touchdown is so sharp that its mesh does not resolve it, a warning tells by
+/// how much the tension is off, with a mesh that is right.
+///
+/// *Source.* As above. What is told is bounded by the warning, and the rest by less than the share from which it tells.
+#[test]
+fn a_mooring_line_is_right_at_a_hundred_offsets_or_tells() {
+    let mut advised = 0;
+    for elements in [20, 27, 40, 80, 160] {
+        let (mut right, mut told) = (0.0f64, 0);
+        for k in 0..100 {
+            let span = 700.0 + 97.0 * f64::from(k) / 99.0;
+            let mut cable = mooring_line(span, elements);
+            cable.equilibrium().unwrap_or_else(|e| panic!("{span} {elements}: {e}"));
+            let error = (cable.pull(elements).0.norm() / catenary(span) - 1.0).abs();
+            let share = cable.warnings().into_iter().find_map(|warning| match warning {
+                Warning::CoarseTouchdown { share, enough, .. } => Some((share, enough)),
+                _ => None,
+            });
+            let Some((share, enough)) = share else {
+                right = right.max(error);
+                continue;
+            };
+            assert!(error < share, "{span} {elements}: {error} for {share}");
+            told += 1;
+            if k % 10 == 0 {
+                let mut fine = mooring_line(span, enough);
+                fine.equilibrium().unwrap();
+                let left = (fine.pull(enough).0.norm() / catenary(span) - 1.0).abs();
+                assert!(left < 2e-3, "{span} {enough}: {left}");
+                advised += 1;
+            }
+        }
+        println!("{elements}: told {told}, others within {right:.1e}");
+        assert!(right < 1.5e-3, "{elements}: {right}");
+        assert!(elements < 160 || told == 0 && right < 1e-3);
+    }
+    assert!(advised > 5, "{advised}");
+}
+
 /// A mooring line on its seabed comes to rest in a current across and along it, is carried by bed,
 /// anchor and fairlead against weight and drag, and motion, whose drag and contacts are computed
 /// otherwise, leaves it where it is.
