@@ -16,6 +16,7 @@ fn row(outcome: Outcome, completed: f64) -> Row {
         host: Host { rate: 60, iterations: 4, precision: Precision::Single, effects: false },
         model: CableModel::Lariat,
         outcome,
+        told: Vec::new(),
         completed,
         energy_not_checked: None,
         energy: 0.0,
@@ -94,7 +95,7 @@ fn every_known_miss_belongs_to_a_run() {
         }
     }
     let mut seen = BTreeSet::new();
-    for Miss { family, case, host, kind, value, bound } in known() {
+    for Miss { family, case, host, kind, value, bound, .. } in known() {
         let run = format!("{family}: {case} | {host}");
         assert!(runs.contains(&run), "no run {run}");
         assert!(value.is_finite() && bound.is_finite() && seen.insert((run, kind)));

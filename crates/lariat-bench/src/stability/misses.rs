@@ -25,6 +25,9 @@ pub struct Miss {
     pub value: f64,
     /// The bound; 1 if the run ended before its time.
     pub bound: f64,
+    /// Names of the warnings of the run.
+    #[serde(default)]
+    pub told: String,
 }
 
 impl Miss {
@@ -48,6 +51,7 @@ pub fn of(row: &Row) -> Vec<Miss> {
         kind: kind.to_string(),
         value,
         bound,
+        told: row.told.join(" "),
     };
     match &row.outcome {
         outcome if outcome.is_good() => Vec::new(),
@@ -65,10 +69,11 @@ pub fn table(misses: &[Miss]) -> Table {
         shown("kind", "missed", Format::Plain),
         shown("value", "value", Format::Short),
         shown("bound", "bound", Format::Short),
+        shown("told", "told", Format::Plain),
     ];
     let rows = misses.iter().map(|m| {
         let words = [&m.family, &m.case, &m.host, &m.kind].map(|text| text.clone().into());
-        words.into_iter().chain([m.value.into(), m.bound.into()]).collect()
+        words.into_iter().chain([m.value.into(), m.bound.into(), m.told.clone().into()]).collect()
     });
     Table { name: "stability_misses", columns, rows: rows.collect() }
 }
@@ -90,6 +95,7 @@ pub fn summary(misses: &[Miss]) -> Table {
             group.len().into(),
             worst.map(|m| m.value).into(),
             worst.map(|m| m.bound).into(),
+            group.iter().filter(|m| m.told.is_empty()).count().into(),
         ]
     });
     let columns = vec![
@@ -98,6 +104,7 @@ pub fn summary(misses: &[Miss]) -> Table {
         shown("hosts", "runs", Format::Plain),
         shown("value", "worst value", Format::Short),
         shown("bound", "bound", Format::Short),
+        shown("silent", "runs of which nothing is told", Format::Plain),
     ];
     Table { name: "stability_misses", columns, rows: rows.collect() }
 }

@@ -119,6 +119,8 @@ pub struct Row {
     pub model: CableModel,
     /// How it ended.
     pub outcome: Outcome,
+    /// What was told of a run that is out of bounds, up to what is coarse: names of warnings.
+    pub told: Vec<String>,
     /// Share of the run that was done.
     pub completed: f64,
     /// The reason why the energy balance has no bounds, if it has none.

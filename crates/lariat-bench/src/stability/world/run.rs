@@ -2,10 +2,12 @@
 //! cases.
 
 use super::case::{Case, EnergyBounds, Script, StepErrors};
+use super::engine::Warning;
 use super::test_world::{StepError, TestWorld};
 use crate::stability::host::{CableModel, Host};
 use crate::stability::outcome::{Check, Outcome, Row};
 use cpu_time::ThreadTime;
+use lariat_ancf::Level;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// One of Rapier's own ropes whose stretch, or whose gap in m, is larger than this has flown apart.
@@ -28,6 +30,8 @@ pub fn run(case: &Case, host: Host, model: CableModel) -> Row {
     });
     let seconds = clock.elapsed().as_secs_f64();
     let counts = world.set.iter().map(|(_, c)| c.diagnostics()).max_by_key(|d| d.steps).copied().unwrap_or_default();
+    let is_told = matches!(outcome, Outcome::OutOfBounds(_)) && model == CableModel::Lariat;
+    let told = if is_told { told(&world) } else { Vec::new() };
     let monitor = &world.monitor;
     Row {
         family: case.family,
@@ -35,6 +39,7 @@ pub fn run(case: &Case, host: Host, model: CableModel) -> Row {
         host,
         model,
         outcome,
+        told,
         completed: world.steps_done as f64 / steps as f64,
         energy_not_checked: match case.bounds.energy {
             EnergyBounds::Within { .. } => None,
@@ -52,6 +57,23 @@ pub fn run(case: &Case, host: Host, model: CableModel) -> Row {
         micros: 1e6 * seconds / world.steps_done.max(1) as f64,
         seconds,
     }
+}
+
+/// Returns the names of what the run is warned of, each once.
+fn told(world: &TestWorld) -> Vec<String> {
+    let mut set = world.set.clone();
+    set.settings.warn_level = Some(Level::Coarse);
+    let name = |warning: Warning| {
+        let text = match warning {
+            Warning::Cable { warning, .. } => format!("{warning:?}"),
+            warning => format!("{warning:?}"),
+        };
+        text.split([' ', '(']).next().unwrap_or_default().to_string()
+    };
+    let mut names: Vec<String> = set.warnings(&world.physics).into_iter().map(name).collect();
+    names.sort();
+    names.dedup();
+    names
 }
 
 fn run_steps(case: &Case, world: &mut TestWorld, steps: usize, clock: &ThreadTime) -> Outcome {
