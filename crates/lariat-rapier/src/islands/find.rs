@@ -1,7 +1,8 @@
 //! Finds the islands of a set.
 
-use super::island::{Island, Member};
-use super::wheels;
+use super::island::Island;
+use super::member::Member;
+use super::wheels::Wheels;
 use crate::body::is_integrated;
 use crate::body::proximity;
 use crate::contents::attachment::Attachment;
@@ -299,6 +300,6 @@ fn connect(contents: &Contents, cables: Vec<usize>, Links { nodes, touching, pai
             }
         }
     }
-    wheels::add(contents, &mut island);
+    island.wheels = Wheels::of(contents, &island.cables, &mut island.members);
     island
 }

@@ -1,5 +1,6 @@
 //! An island: cables that are connected, and what connects them.
 
+use super::member::Member;
 use super::wheels::Wheels;
 use crate::contents::Contents;
 use crate::error::{Error, Failure};
@@ -7,24 +8,6 @@ use crate::handle::CableHandle;
 use lariat_ancf::contact::CablePair;
 use lariat_ancf::island::PinConstraint;
 use rapier::dynamics::RigidBodyHandle;
-
-/// Something that pins connect cables to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Member {
-    /// An integrated body.
-    Body(RigidBodyHandle),
-    /// A body with prescribed motion.
-    Driven(RigidBodyHandle),
-    /// A junction, by its index.
-    Junction(usize),
-}
-
-impl Member {
-    /// Returns the handle of an integrated body.
-    pub fn body(&self) -> Option<RigidBodyHandle> {
-        if let Member::Body(handle) = self { Some(*handle) } else { None }
-    }
-}
 
 /// Cables that are connected, and what connects them.
 #[derive(Clone, Debug, Default)]

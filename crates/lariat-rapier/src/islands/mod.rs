@@ -8,7 +8,9 @@
 
 mod find;
 mod island;
+mod member;
 mod wheels;
 
 pub(crate) use find::Islands;
-pub(crate) use island::{Island, Member};
+pub(crate) use island::Island;
+pub(crate) use member::Member;

@@ -1,6 +1,6 @@
 //! The sheaves and drums of an island.
 
-use super::island::{Island, Member};
+use super::member::Member;
 use crate::contents::Contents;
 use lariat_ancf::island::{Drum, Sheave};
 
@@ -13,6 +13,23 @@ pub(crate) struct Wheels {
 }
 
 impl Wheels {
+    /// Returns the sheaves and drums of the cables of an island, and adds the bodies that are drums
+    /// to its members.
+    pub fn of(contents: &Contents, cables: &[usize], members: &mut Vec<Member>) -> Wheels {
+        let mut wheels = Wheels::default();
+        let sheaves = contents.wheels.sheaves.iter();
+        wheels.sheaves = sheaves.filter(|(_, sheave)| sheave.within(cables).is_some()).map(|(i, _)| i).collect();
+        for wound in contents.wheels.drums.iter().filter(|wound| cables.contains(&(wound.cable.0 as usize))) {
+            let member = Member::Body(wound.drum.body);
+            let body = members.iter().position(|m| *m == member).unwrap_or_else(|| {
+                members.push(member);
+                members.len() - 1
+            });
+            wheels.drums.extend(wound.within(cables, body));
+        }
+        wheels
+    }
+
     pub fn is_empty(&self) -> bool {
         self.sheaves.is_empty() && self.drums.is_empty()
     }
@@ -37,20 +54,5 @@ impl Wheels {
         for (&i, wheel) in self.sheaves.iter().zip(stepped) {
             contents.wheels.sheaves.get_mut(i).into_iter().for_each(|sheave| sheave.wheel = *wheel);
         }
-    }
-}
-
-/// Adds to an island the sheaves and drums of its cables, and the bodies that are drums.
-pub(super) fn add(contents: &Contents, island: &mut Island) {
-    let Island { cables, members, wheels, .. } = island;
-    let sheaves = contents.wheels.sheaves.iter();
-    wheels.sheaves = sheaves.filter(|(_, sheave)| sheave.within(cables).is_some()).map(|(i, _)| i).collect();
-    for wound in contents.wheels.drums.iter().filter(|wound| cables.contains(&(wound.cable.0 as usize))) {
-        let member = Member::Body(wound.drum.body);
-        let body = members.iter().position(|m| *m == member).unwrap_or_else(|| {
-            members.push(member);
-            members.len() - 1
-        });
-        wheels.drums.extend(wound.within(cables, body));
     }
 }
