@@ -2,10 +2,9 @@
 
 use lariat_ancf::Cable;
 use lariat_ancf::warning::fold::explained;
-use lariat_ancf::warning::{Interface, Warning};
+use lariat_ancf::warning::{Interface, Warning, name_of};
 use pyo3::prelude::*;
 use std::ffi::CString;
-use std::fmt::Debug;
 
 /// Gives lines to Python's `warnings`, where the filters of the user decide.
 pub fn warn(py: Python<'_>, lines: impl IntoIterator<Item = String>) -> PyResult<()> {
@@ -21,24 +20,23 @@ pub fn warn(py: Python<'_>, lines: impl IntoIterator<Item = String>) -> PyResult
 #[derive(Default)]
 pub struct Told {
     kinds: Vec<String>,
-    /// Number of warnings that a cable had raised when it was last read; none before its first step.
+    /// Number of warnings that a cable had raised when it was last read; none before its first
+    /// step.
     read_at: Option<u64>,
 }
 
 impl Told {
-    /// Returns whether a warning is the first of its kind, which is the name of its variant.
-    pub fn is_first(&mut self, warning: &impl Debug) -> bool {
-        let debug = format!("{warning:?}");
-        let kind = debug.split(' ').next().unwrap_or_default();
-        let first = self.kinds.iter().all(|told| told != kind);
+    /// Returns whether a warning is the first of its kind.
+    pub fn is_first(&mut self, kind: String) -> bool {
+        let first = !self.kinds.contains(&kind);
         if first {
-            self.kinds.push(kind.to_string());
+            self.kinds.push(kind);
         }
         first
     }
 
-    /// Returns the lines to tell of a cable that was stepped beside others, of which `all` were told; reads it if it has raised a
-    /// warning since it was last read.
+    /// Returns the lines to tell of a cable that was stepped beside others, of which `all` were
+    /// told; reads it if it has raised a warning since it was last read.
     pub fn of_cable(&mut self, cable: &Cable, all: &mut Told) -> Vec<String> {
         let raised = cable.diagnostics().warnings;
         if self.read_at.replace(raised) == Some(raised) {
@@ -46,7 +44,9 @@ impl Told {
         }
         let level = cable.warn_level();
         let mut warnings = unexplained(cable);
-        warnings.retain(|warning| warning.level() <= level && self.is_first(warning) && all.is_first(warning));
+        warnings.retain(|warning| {
+            warning.level() <= level && self.is_first(name_of(warning)) && all.is_first(name_of(warning))
+        });
         warnings.iter().map(|warning| Interface::Python.text(warning)).collect()
     }
 }

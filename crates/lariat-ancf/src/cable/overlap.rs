@@ -9,26 +9,37 @@ use core::ops::RangeInclusive;
 use nalgebra::Vector3;
 
 impl Cable {
-    /// Returns the largest share of its tension by which the cable may be off since it leaves an
-    /// obstacle within an element, and the arc length (m) there. Equation and validity:
-    /// `warning/contact.rs`.
-    pub(crate) fn touchdown_quality(&self) -> [f64; 2] {
-        let (q, mut worst) = (self.positions(), [0.0; 2]);
-        let mut touched = self.snapshot.state.memory.contacts.iter().map(|touch| touch.element as usize).peekable();
-        let (mut begin, mut before) = (0.0, None);
-        for (e, element) in self.elements().iter().enumerate() {
-            let mut touches = false;
-            while touched.next_if_eq(&e).is_some() {
-                touches = true;
+    /// Returns by element whether it touched an obstacle in the last step.
+    fn touching(&self) -> impl Iterator<Item = bool> + '_ {
+        let mut touches = self.snapshot.state.memory.contacts.iter().map(|touch| touch.element as usize).peekable();
+        (0..self.elements().len()).map(move |e| {
+            let mut touching = false;
+            while touches.next_if_eq(&e).is_some() {
+                touching = true;
             }
+            touching
+        })
+    }
+
+    /// Returns the angle in rad between the slopes at two nodes.
+    fn turn_between(&self, nodes: [usize; 2]) -> f64 {
+        let q = self.positions();
+        let [a, b] = nodes.map(|node| Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]));
+        a.cross(&b).norm().atan2(a.dot(&b))
+    }
+
+    /// Returns the arc length (m) at which the cable leaves an obstacle within an element, and the
+    /// share of the largest tension by which tensions may be off by that; where it is largest.
+    /// Equation and validity: `warning/contact.rs`.
+    pub(crate) fn touchdown_quality(&self) -> [f64; 2] {
+        let (mut worst, mut begin, mut before) = ([0.0; 2], 0.0, None);
+        for (e, (element, touches)) in self.elements().iter().zip(self.touching()).enumerate() {
             if before.is_some_and(|before| before != touches) && !self.model.is_at_eye(e) {
                 // the element that touches last, and the one beside it
                 let pair = [e - 1, e].map(|e| &self.elements()[e]);
-                let [a, b] = [e - 1, e + 1].map(|node| Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]));
-                let turn = a.cross(&b).norm().atan2(a.dot(&b));
                 let length = f64::max(pair[0].length, pair[1].length);
                 let mass = f64::max(pair[0].section.mass_per_length, pair[1].section.mass_per_length);
-                let off = turn * length * mass * self.gravity().norm() / TOUCHDOWN_ERROR;
+                let off = self.turn_between([e - 1, e + 1]) * length * mass * self.gravity().norm() / TOUCHDOWN_ERROR;
                 if off > worst[1] {
                     worst = [begin, off];
                 }
@@ -49,8 +60,7 @@ impl Cable {
         let mut worst = [[0.0; 2]; 2];
         let Some(contact) = self.effects().contact.filter(|_| !self.obstacles().is_empty()) else { return worst };
         let (q, mut from) = (self.positions(), 0.0);
-        let mut touches = self.snapshot.state.memory.contacts.iter().peekable();
-        for (e, element) in self.elements().iter().enumerate() {
+        for (e, (element, touches)) in self.elements().iter().zip(self.touching()).enumerate() {
             let begin = from;
             from += element.length;
             if self.model.is_at_eye(e) {
@@ -76,13 +86,8 @@ impl Cable {
                     }
                 }
             }
-            let mut touched = false;
-            while touches.next_if(|touch| touch.element as usize == e).is_some() {
-                touched = true;
-            }
-            if touched {
-                let [a, b] = [e, e + 1].map(|node| Vector3::from_column_slice(&q[6 * node + 3..6 * node + 6]));
-                let share = a.cross(&b).norm().atan2(a.dot(&b)) / turn;
+            if touches {
+                let share = self.turn_between([e, e + 1]) / turn;
                 if share > worst[1][1] {
                     worst[1] = [begin, share];
                 }

@@ -1,6 +1,6 @@
 //! How much depends on a warning, and what is read of it to order and fold it.
 
-use core::fmt::Display;
+use core::fmt::{Debug, Display};
 use serde::{Deserialize, Serialize};
 
 /// How much depends on a warning, from the one to look at first.
@@ -37,6 +37,12 @@ impl core::str::FromStr for Level {
         let found = Level::ALL.into_iter().find(|level| level.name() == text);
         found.ok_or_else(|| format!("no level {text:?}: choose setup, wrong or coarse"))
     }
+}
+
+/// Returns the name of the kind of a warning, that of its variant, as `CoarseMesh`.
+pub fn name_of(warning: &impl Debug) -> String {
+    let text = format!("{warning:?}");
+    text.split([' ', '(']).next().unwrap_or_default().to_string()
 }
 
 /// What a warning is a sign of.

@@ -36,7 +36,7 @@ mod words;
 
 pub use crate::watch::{EnergyBalance, IslandChange, Passage, Through, Watch};
 pub use advised::AdvisedMesh;
-pub use level::Level;
+pub use level::{Level, name_of};
 pub use shock::Shock;
 pub use watch::breaks_again;
 pub use words::Interface;

@@ -11,7 +11,7 @@ use crate::physics::Physics;
 use crate::snapshot::Watched;
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
-use bevy_ecs::prelude::{Commands, Has, Query, Ref, ResMut};
+use bevy_ecs::prelude::{Commands, Has, Query, Ref, Res, ResMut};
 use lariat_rapier::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use lariat_rapier::rapier::math::Vector;
 use lariat_rapier::{AttachmentHandle, AttachmentOptions};
@@ -31,13 +31,13 @@ type Components = (
 pub(crate) fn update(
     mut cables: ResMut<Cables>,
     mut physics: ResMut<Physics>,
-    mut pending: ResMut<Pending>,
+    pending: Res<Pending>,
     attachments: Query<Components>,
     handles: Query<Ref<BodyHandle>>,
     mut commands: Commands,
 ) {
     let cables = &mut *cables;
-    let new_cables = core::mem::take(&mut pending.new_cables);
+    let new_cables = pending.new_cables;
     for (entity, attachment, on, to, attached, limit, failed) in &attachments {
         let changed = attachment.is_changed()
             || on.as_ref().is_some_and(|on| pending.has_changed(entity, Watched::OnCable, on))

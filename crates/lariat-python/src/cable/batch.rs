@@ -51,7 +51,8 @@ pub fn states<'py>(py: Python<'py>, cables: Vec<Bound<'py, Cable>>) -> PyResult<
 
 /// Advances cables that nothing connects by ``steps`` steps of ``dt`` (s), on all threads, and
 /// returns their states as arrays. Warns as ``Cable.step`` does, once for all. Raises
-/// StepFailedError, that of the first cable that cannot step, after all others have made that step; DuplicateCableError, InWorldError.
+/// StepFailedError, that of the first cable that cannot step, after all others have made that step;
+/// DuplicateCableError, InWorldError.
 #[pyfunction]
 #[pyo3(signature = (cables, dt, *, steps=1))]
 pub fn step_all<'py>(

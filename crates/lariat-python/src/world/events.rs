@@ -36,11 +36,7 @@ impl Contents {
 
     /// Returns the text of a warning, unless one of its kind was told.
     fn first_of_kind(&mut self, warning: &Warning) -> Option<String> {
-        let first = match warning {
-            Warning::Cable { warning, .. } => self.told.is_first(warning),
-            other => self.told.is_first(other),
-        };
-        first.then(|| Interface::Python.text(warning))
+        self.told.is_first(warning.name()).then(|| Interface::Python.text(warning))
     }
 }
 

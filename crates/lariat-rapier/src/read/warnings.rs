@@ -22,8 +22,8 @@ use crate::scales::HOST_ROUNDING;
 use crate::scales::read::{FAR_ANCHOR, JOLT};
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::warning::Interface;
 use lariat_ancf::warning::fold::{self, Judged, Sign};
+use lariat_ancf::warning::{Interface, name_of};
 use lariat_ancf::{Cable, Level};
 use rapier::dynamics::RigidBodyType;
 use rapier::geometry::ColliderHandle;
@@ -174,6 +174,15 @@ impl Warning {
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => Level::Setup,
             Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
+        }
+    }
+
+    /// Returns the name of its kind, of a warning about a cable that of the cable's, as
+    /// `CoarseMesh`.
+    pub fn name(&self) -> String {
+        match self {
+            Warning::Cable { warning, .. } => name_of(warning),
+            warning => name_of(warning),
         }
     }
 

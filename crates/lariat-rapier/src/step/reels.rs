@@ -12,11 +12,11 @@ use rapier::pipeline::PhysicsWorld;
 
 /// Refuses drums that something else than cables moves.
 pub(crate) fn check(world: &PhysicsWorld, island: &Island) -> Result<(), Error> {
-    let bodies = island.wheels.drums.iter().filter_map(|drum| island.members[drum.body].body());
-    bodies
-        .into_iter()
-        .find(|body| proximity::is_linked(world, *body))
-        .map_or(Ok(()), |body| Err(Error::DrumJoined(body)))
+    let mut bodies = island.wheels.drums.iter().filter_map(|drum| island.members[drum.body].body());
+    match bodies.find(|body| proximity::is_linked(world, *body)) {
+        Some(body) => Err(Error::DrumJoined(body)),
+        None => Ok(()),
+    }
 }
 
 /// Splits and merges elements at the eyes of all reels, before a step. Arc lengths stay, numbers of

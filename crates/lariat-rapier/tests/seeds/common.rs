@@ -47,14 +47,7 @@ pub fn cable(from: Vector3<f64>, to: Vector3<f64>, section: Section) -> CableBui
 pub fn told(set: &CableSet, world: &PhysicsWorld) -> Vec<String> {
     let mut set = set.clone();
     set.settings.warn_level = Some(Level::Coarse);
-    let named = |warning: &Warning| {
-        let text = match warning {
-            Warning::Cable { warning, .. } => format!("{warning:?}"),
-            warning => format!("{warning:?}"),
-        };
-        let name = text.split([' ', '(']).next().unwrap_or("");
-        (warning.level(), name.to_string())
-    };
+    let named = |warning: &Warning| (warning.level(), warning.name());
     let of_mesh = [
         "CoarseMesh",
         "CoarseMoment",

@@ -63,14 +63,7 @@ pub fn run(case: &Case, host: Host, model: CableModel) -> Row {
 fn told(world: &TestWorld) -> Vec<String> {
     let mut set = world.set.clone();
     set.settings.warn_level = Some(Level::Coarse);
-    let name = |warning: Warning| {
-        let text = match warning {
-            Warning::Cable { warning, .. } => format!("{warning:?}"),
-            warning => format!("{warning:?}"),
-        };
-        text.split([' ', '(']).next().unwrap_or_default().to_string()
-    };
-    let mut names: Vec<String> = set.warnings(&world.physics).into_iter().map(name).collect();
+    let mut names: Vec<String> = set.warnings(&world.physics).iter().map(Warning::name).collect();
     names.sort();
     names.dedup();
     names
