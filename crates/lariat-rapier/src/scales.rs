@@ -25,6 +25,10 @@ pub(crate) mod body {
     /// Derived: Rapier's own.
     pub(crate) const MAX_ROTATION_PER_STEP: f64 = core::f64::consts::FRAC_PI_4;
 
+    /// Share of the angular velocity of a kinematic body from which it is told that Rapier turns it
+    /// otherwise. Setting: half of the error that is promised to be told.
+    pub(crate) const LOST_SPIN: f64 = 0.05;
+
     /// Half of the rotation in a substep, in rad, up to which angular velocities are corrected for
     /// Rapier's linearised rotation. Unknown: its tangent, which corrects it, is finite below pi/2.
     pub(crate) const MAX_HALF_ROTATION: f64 = 1.2;

@@ -8,11 +8,13 @@
 //! | [`pose`], [`spatial`] | positions and attitudes, and vectors of six |
 //! | [`record`], [`motion_memory`] | what is kept of each body between steps |
 //! | [`prescribed_motion`] | how fixed and kinematic bodies move in a host step |
+//! | [`lost_spin`] | the angular velocity of kinematic bodies that Rapier does not carry out |
 //! | [`ledger`] | the heavy body and the motors through which a body feels its cable |
 //! | [`proximity`] | which bodies a body is near, and which it will collide with |
 //! | [`unsettled`] | whether Rapier does with bodies on joints what was predicted for them |
 
 pub(crate) mod ledger;
+pub(crate) mod lost_spin;
 pub(crate) mod motion_memory;
 pub(crate) mod pose;
 pub(crate) mod prescribed_motion;

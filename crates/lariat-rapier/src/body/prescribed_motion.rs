@@ -241,7 +241,10 @@ impl PrescribedMotions {
                 [from, to].map(|share| motion.at(share).0)
             } else if world.bodies[motion.handle].is_enabled() {
                 let start = records.place(world, motion.handle);
-                [start, moved_by_velocity(world, motion.handle, start, h)]
+                let step = [start, moved_by_velocity(world, motion.handle, start, h)];
+                let spin = vector(world.bodies[motion.handle].angvel());
+                records.record_mut(motion.handle).spin.note(&step, &spin, h);
+                step
             } else {
                 [records.place(world, motion.handle); 2]
             };

@@ -1,5 +1,6 @@
 //! What the coupling keeps of each body between steps.
 
+use crate::body::lost_spin::SpinWatch;
 use crate::body::motion_memory::MotionMemory;
 use crate::body::pose::{self, OriginPose};
 use crate::body::unsettled::SettleWatch;
@@ -39,6 +40,9 @@ pub(crate) struct BodyRecord {
     /// Of a body on joints, what Rapier made of its predictions.
     #[serde(default)]
     pub settling: SettleWatch,
+    /// Of a body that Rapier moves by its velocity, what it does not carry out of its spin.
+    #[serde(default)]
+    pub spin: SpinWatch,
     /// Whether it is kinematic and has rotated: it then drives the cables on it.
     #[serde(default)]
     pub rotates: bool,
@@ -57,6 +61,7 @@ impl BodyRecord {
             next_place: None,
             pull: Vector6::zeros(),
             settling: SettleWatch::default(),
+            spin: SpinWatch::default(),
             rotates: false,
         }
     }
@@ -198,9 +203,12 @@ impl Records {
         }
     }
 
-    /// What was due to be told of bodies on joints has been.
-    pub fn settle_told(&mut self) {
-        self.0.iter_mut().for_each(|record| record.settling.set_told());
+    /// What was due to be told of bodies has been.
+    pub fn set_told(&mut self) {
+        for record in &mut self.0 {
+            record.settling.set_told();
+            record.spin.set_told();
+        }
     }
 
     /// Drops the records of bodies that are no longer in the world.

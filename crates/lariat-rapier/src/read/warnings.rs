@@ -8,6 +8,7 @@
 //! the level of [`Settings::warn_level`](crate::Settings::warn_level), and but for what follows
 //! from what is told of the same cable ([`lariat_ancf::warning::fold`]).
 
+use crate::body::lost_spin::LostSpin;
 use crate::body::unsettled::Unsettled;
 use crate::contents::attachment::Attachment;
 use crate::contents::gaps::OpenGap;
@@ -136,6 +137,21 @@ pub enum Warning {
         /// Name of its cable.
         name: String,
     },
+    /// A kinematic body that Rapier turns at another angular velocity than its own.
+    #[error(
+        "cable {name:?}: the body of an attachment has an angular velocity of {asked:.4} rad/s, and Rapier turns it by {turned:.4} rad/s: by pi/4 in a step at most unless \
+         `allow_fast_rotation` is set, by less in each solver iteration the farther that turns, and beyond half a turn the shorter way; take more `Settings::rapier_steps`"
+    )]
+    LostSpin {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+        /// Angular velocity of the body in rad/s.
+        asked: f64,
+        /// That with which Rapier turned it, in rad/s.
+        turned: f64,
+    },
     /// The world is in another unit than m.
     #[error(
         "Rapier's `length_unit` is {unit}: cables are in m, kg and s, and so are the limits by which their contacts, steps and warnings are judged; scale the world to m"
@@ -171,6 +187,7 @@ impl Warning {
             | Warning::VelocityJump { .. }
             | Warning::FarAnchor { .. }
             | Warning::MixedJoints { .. }
+            | Warning::LostSpin { .. }
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => Level::Setup,
             Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
@@ -196,6 +213,7 @@ impl Warning {
             | Warning::Unsettled { attachment, .. }
             | Warning::FarAnchor { attachment, .. }
             | Warning::MixedJoints { attachment, .. }
+            | Warning::LostSpin { attachment, .. }
             | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
             Warning::LengthUnit { .. } => None,
         }
@@ -215,6 +233,7 @@ impl Judged for Warning {
             Warning::VelocityJump { .. } => Some(Sign::Shock),
             Warning::Unsettled { .. }
             | Warning::MixedJoints { .. }
+            | Warning::LostSpin { .. }
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => None,
         }
@@ -245,6 +264,7 @@ impl Judged for Warning {
             Warning::HighRestitution { restitution, .. } => *restitution,
             Warning::FarAnchor { distance, radius, .. } => distance / radius,
             Warning::LengthUnit { unit } => *unit,
+            Warning::LostSpin { asked, .. } => *asked,
             Warning::MixedJoints { .. } => 0.0,
         }
     }
@@ -279,6 +299,9 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         warnings.extend(mixed_joints(contents, attachment, a, world));
         if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
             warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
+        }
+        if let (Some(record), Ok(cable)) = (contents.records.get(a.body), contents.cable(a.cable)) {
+            warnings.extend(record.spin.worst().map(|lost| lost_spin(attachment, cable.name(), lost)));
         }
     }
     warnings
@@ -391,6 +414,11 @@ fn mixed_joints(
     mechanism::is_mixed(world, own.body).then_some(Warning::MixedJoints { attachment, name })
 }
 
+/// Returns what is to be said where Rapier does not turn the body of an attachment as it was asked.
+fn lost_spin(attachment: AttachmentHandle, name: &str, LostSpin { asked, turned }: LostSpin) -> Warning {
+    Warning::LostSpin { attachment, name: name.to_string(), asked, turned }
+}
+
 /// Logs, before a host step, what is wrong with how cables and attachments begin that have not been
 /// stepped: where they lie and how they move is what the user gave. Chooses what is read of cables
 /// by the level that is `asked` for, and their names by the `interface`.
@@ -462,8 +490,13 @@ pub(crate) fn note(
             log::warn!("{}", interface.text(&warning));
             events.push(Event::Unsettled { attachment, how });
         }
+        let lost = records.get(attachment.body).and_then(|record| record.spin.due());
+        if let Some(lost) = lost.filter(|_| slot.cable.is_watched()) {
+            let warning = lost_spin(AttachmentHandle(index as u32), slot.cable.name(), lost);
+            log::warn!("{}", interface.text(&warning));
+        }
     }
-    records.settle_told();
+    records.set_told();
     for index in 0..cables.len() {
         let Some(slot) = cables.get_mut(index).filter(|slot| !slot.asleep) else { continue };
         let cable = CableHandle(index as u32);
