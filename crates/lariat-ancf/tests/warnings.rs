@@ -387,7 +387,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::BreaksAgain { cable: cable(), breaks: 3 },
         Warning::EnergyMade { cable: cable(), time_s, made_j: 1.0, scale_j: 2.0, discrete_gradient: false },
         Warning::EnergyLost { cable: cable(), time_s, lost_j: 1.0, scale_j: 2.0 },
-        Warning::FastReel { cable: cable(), time_s, ratio: 0.5 },
+        Warning::FastReel { cable: cable(), time_s, ratio: 0.5, undirected: false },
         Warning::SlowReel { cable: cable(), asked_m: 5.0, given_m: 2.0, rate_m_s: 5.0, acceleration_m_s2: 2.0 },
         Warning::UnseenLoad { cable: cable(), time_s, share: 0.9, reached: 1.1, step_s },
         Warning::RoundedEnds { cable: cable(), time_s, noise_n: 1.0, tension_n: 2.0 },

@@ -162,6 +162,7 @@ impl From<lariat_ancf::Error> for Raise {
             ExplicitReel { cable, method }
             ReelMethod { cable, method, reason: |x: &&'static str| *x }
             ReelPlace { cable, reason: |x: &&'static str| *x }
+            FastReel { cable, share, most }
             NotWithReel { cable, what: |x: &&'static str| *x }
             UnknownRule { rule, expected: |x: &&'static str| *x, suggestion }
             UnknownIntegrator { name, expected, suggestion }

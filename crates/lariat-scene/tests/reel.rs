@@ -177,6 +177,50 @@ fn a_windlass_of_a_scene_hoists_its_bucket() {
     }
 }
 
+/// A lure that is cast takes line off a free spool, 25 m/s out of elements of 33 mm, in host steps of 1/60 and 1/240 s; and without a
+/// direction at the tip, which nothing gives a line without bending stiffness there, that is told.
+///
+/// *Source.* Conservation of energy of the lure on a straight line from a bag, with the weight of both along it: integrated below.
+#[test]
+fn a_lure_is_cast() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/cast.toml");
+    // (m + w s) v^2/2 + (m + w s/2) g y = const, s the way of the lure, y its rise
+    let (m, w, g) = (0.02, 8e-5, 9.81);
+    let (mut x, mut v) = ([0.5f64.sqrt(); 2], [12.5 * 2.0f64.sqrt(); 2]);
+    let (mut time, h) = (0.0, 1e-5);
+    while time < 0.6 {
+        let s = x[0].hypot(x[1]);
+        let speed = (x[0] * v[0] + x[1] * v[1]) / s;
+        // what is out moves with the lure, and what comes out takes half of its momentum flux
+        let pull = 0.5 * w * speed * speed;
+        for i in 0..2 {
+            let weight = [0.0, g * (m + 0.5 * w * s)][i];
+            v[i] -= h * (weight + pull * x[i] / s) / (m + w * s);
+            x[i] += h * v[i];
+        }
+        time += h;
+    }
+    let expected = x[0].hypot(x[1]);
+    for (held, dt) in [(true, 1.0 / 60.0), (true, 1.0 / 240.0), (false, 1.0 / 60.0)] {
+        let folder = tempfile::tempdir().unwrap();
+        let kind = if held { "clamp" } else { "ball" };
+        let overrides = [format!("dt={dt:?}"), format!("attachment.tip.kind=\"{kind}\"")];
+        let scene = Scene::read(&path, &overrides, Purpose::Run).unwrap();
+        let run = run::run(&scene, folder.path(), &mut Options::default());
+        if !held {
+            let text = format!("{run:?}") + &std::fs::read_to_string(folder.path().join("summary.json")).unwrap();
+            assert!(text.contains("fast_reel") && text.contains("\"undirected\": true"), "{text}");
+            continue;
+        }
+        let summary = run.unwrap();
+        assert!(summary.failed.is_none() && summary.warnings.is_empty(), "{summary:?}");
+        let text = std::fs::read_to_string(folder.path().join("probes/reel.csv")).unwrap();
+        let row: Vec<f64> = text.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+        println!("{dt}: {} m of {expected}", row[1]);
+        assert!((row[1] / expected - 1.0).abs() < 2e-3, "{} m of {expected}", row[1]);
+    }
+}
+
 /// Drums that do not fit are refused with the key that is wrong, and their statics by name.
 #[test]
 fn drums_that_do_not_fit_are_refused() {

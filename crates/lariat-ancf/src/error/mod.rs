@@ -103,6 +103,18 @@ pub enum Error {
         /// Why not.
         reason: &'static str,
     },
+    /// A step of an island in which too much of the element at an eye would pass.
+    #[error(
+        "cable {cable:?}: its reel moves {share:.2} of the element at its eye in a step of an island, and at most {most} of it can pass: take shorter steps, or longer elements"
+    )]
+    FastReel {
+        /// Name of the cable.
+        cable: String,
+        /// Share of the length of the element.
+        share: f64,
+        /// The largest that can pass.
+        most: f64,
+    },
     /// Something that a cable with a reel does not carry.
     #[error("cable {cable:?}: a reel does not go with {what}")]
     NotWithReel {

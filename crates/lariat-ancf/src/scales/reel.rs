@@ -95,3 +95,7 @@ pub(crate) const SHORTFALL: f64 = 1e-2;
 /// Largest share of an element that passes an eye in a step of an island. Derived: what is left is
 /// no shorter than what passes.
 pub(crate) const LARGEST_SHARE: f64 = 0.5;
+
+/// Share of an element for which steps of an island are planned. Derived: a rate that nothing
+/// drives may then grow by half within one.
+pub(crate) const PLANNED_SHARE: f64 = LARGEST_SHARE / 1.5;

@@ -73,6 +73,10 @@ pub(crate) const SLID: f64 = 10.0;
 /// what the moving rope adds to its tension.
 pub(crate) const REEL: f64 = 0.3;
 
+/// Largest rate over the speed of transverse waves that is told. Derived: without tension it is
+/// infinite, which no file of numbers holds.
+pub(crate) const LARGEST_RATIO: f64 = 1e3;
+
 /// Largest force that the rounding of what holds a cable may make, as a share of its largest
 /// tension. Unknown: tensions are then right to as much.
 pub(crate) const NOISE: f64 = 0.01;

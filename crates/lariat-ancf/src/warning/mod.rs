@@ -242,7 +242,11 @@ pub enum Warning {
     /// A reel whose rate comes near the speed of waves.
     #[error(
         "cable {cable:?}: at {time_s:.3} s its reel turns with {ratio:.2} of the speed of transverse waves: above 0.3 waves across \
-         it may grow, whatever its damping, and its shape and frequencies are wrong then; give it a slower rate, or more tension"
+         it may grow, whatever its damping, and its shape and frequencies are wrong then; {}", if *undirected {
+            "where it runs out faster than waves, nothing gives a cable without bending stiffness its direction at the eye: clamp it there, or give it bending stiffness"
+        } else {
+            "give it a slower rate, or more tension"
+        }
     )]
     FastReel {
         /// Name of the cable.
@@ -251,6 +255,10 @@ pub enum Warning {
         time_s: f64,
         /// Rate over the speed of transverse waves.
         ratio: f64,
+        /// Whether it is above 1, and neither bending stiffness nor a clamp gives the cable a
+        /// direction at the eye.
+        #[serde(default)]
+        undirected: bool,
     },
     /// A table of rates asks for changes that the acceleration of the reel does not give.
     #[error(

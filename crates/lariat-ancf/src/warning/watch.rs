@@ -17,9 +17,11 @@ use crate::cable::Cable;
 use crate::effect::AxialLaw;
 use crate::integrate::{Fidelity, OneStep};
 use crate::scales::watch::{
-    BREAKING, BREAKS, DEPTH, ELONGATION, ERROR, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN, TURN,
+    BREAKING, BREAKS, DEPTH, ELONGATION, ERROR, LARGEST_RATIO, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN,
+    TURN,
 };
 use crate::strength::{Strength, Unseen};
+use crate::support::Support;
 use crate::watch::{Contacts, Estimate, Verdict, Watch};
 
 /// A law that judges the readings; the error (m) that is asked for takes the place of its limit.
@@ -231,23 +233,33 @@ impl Watch {
     }
 
     /// Reads the reels, a time in s after the last reading. One is fast if it is so while a
-    /// transverse wave crosses the cable: on a rope that is slack for a moment none does.
+    /// transverse wave crosses the cable: on a rope that is slack for a moment none does. A string
+    /// that leaves an eye faster than its waves carries both of them with it: at the eye it needs a
+    /// direction beside the place, as beams have it that no moment acts on, and none comes from
+    /// elsewhere.
     fn note_reels(&mut self, cable: &Cable, passed: f64) {
-        let reels = cable.reels().map(|reel| [reel.speed_ratio, reel.rate.abs()]);
-        let [ratio, rate] = reels.fold([0.0; 2], |a, b| if b[0] > a[0] { b } else { a });
-        if !(ratio > REEL && ratio.is_finite()) {
+        let fastest = |a: (At, f64, f64), b: (At, f64, f64)| if b.1 > a.1 { b } else { a };
+        let reels = [At::Start, At::End].into_iter().filter_map(|at| Some((at, cable.reel(at)?)));
+        let reels = reels.map(|(at, reel)| (at, reel.speed_ratio, reel.rate));
+        let (at, ratio, rate) = reels.fold((At::Start, 0.0, 0.0), fastest);
+        let undirected = ratio > 1.0 && rate > 0.0 && cable.is_undirected(at);
+        if !(ratio > REEL && (ratio.is_finite() || undirected)) {
             self.crossings = 0.0;
             return;
         }
-        self.crossings += passed * rate / ratio / cable.length();
+        // without tension it is infinite
+        let ratio = ratio.min(LARGEST_RATIO);
+        let wave = rate.abs() / ratio + if undirected { rate } else { 0.0 };
+        self.crossings += passed * wave / cable.length();
         if self.crossings >= 1.0 && ratio > self.reel.0 {
             self.reel = (ratio, cable.time());
+            self.undirected |= undirected;
         }
     }
 
     fn fast_reel(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
-        let (ratio, time_s) = self.reel;
-        (ratio > REEL).then(|| Warning::FastReel { cable: cable.name().to_string(), time_s, ratio })
+        let ((ratio, time_s), undirected) = (self.reel, self.undirected);
+        (ratio > REEL).then(|| Warning::FastReel { cable: cable.name().to_string(), time_s, ratio, undirected })
     }
 
     fn rounded_ends(&self, cable: &Cable, _: Option<f64>) -> Option<Warning> {
@@ -376,6 +388,14 @@ impl Cable {
         if let Some(watch) = &mut self.watch {
             watch.leaves_coarse = level < Level::Coarse;
         }
+    }
+
+    /// Returns whether neither a clamp nor bending stiffness gives the cable a direction at an end.
+    fn is_undirected(&self, at: At) -> bool {
+        let elements = self.elements();
+        let (node, element) = if at == At::Start { (0, 0) } else { (self.nodes() - 1, elements.len() - 1) };
+        let is_held = self.model.support(node).is_some_and(Support::holds_slope);
+        elements[element].section.bending_stiffness == 0.0 && !is_held
     }
 
     /// Returns whether the cable is straight and taut.

@@ -58,6 +58,9 @@ pub struct Watch {
     pub(crate) tension: [f64; 4],
     /// Largest rate of a reel over the speed of transverse waves, and its time in s.
     pub(crate) reel: (f64, f64),
+    /// Whether a reel pays out faster than them a cable that has no direction at its eye.
+    #[serde(default)]
+    pub(crate) undirected: bool,
     /// How often transverse waves crossed the cable since a reel has been as fast.
     #[serde(default)]
     pub(crate) crossings: f64,

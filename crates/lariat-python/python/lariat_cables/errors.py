@@ -89,6 +89,10 @@ class ReelPlaceError(Error, ValueError):
     """A reel where none can be, or none where one was named: reason."""
 
 
+class FastReelError(Error):
+    """A step of an island in which too much of the element at an eye would pass: share, most."""
+
+
 class NotWithReelError(Error, ValueError):
     """Something that a cable with a reel does not carry: what."""
 

@@ -164,7 +164,7 @@ pub(crate) fn predict_next(
         }
         match outcome? {
             Predicted::Whole => return Ok(()),
-            Predicted::Turned(parts) => host.refine(parts),
+            Predicted::Coarse(parts) => host.refine(parts),
             Predicted::Overloaded(at) if at > 0.0 => host.divide(at),
             Predicted::Overloaded(_) => {
                 host.begin_broken();
@@ -208,8 +208,9 @@ pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut
 /// What the prediction of a Rapier step gave; all but the first is reverted, to be predicted anew.
 enum Predicted {
     Whole,
-    /// A mechanism turned so much that it is to be divided into equal parts.
-    Turned(u32),
+    /// A mechanism turned so much, or so much passed an eye, that it is to be divided into equal
+    /// parts.
+    Coarse(u32),
     /// A cable exceeded its limit at a share of it.
     Overloaded(f64),
 }
@@ -244,7 +245,8 @@ fn predict_islands(
         integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
         let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
         let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
-        let parts = (turn / MAX_TURN_ERROR).sqrt().ceil().min(f64::from(u32::MAX)) as u32;
+        let passed = predictions.iter().map(parts_for_reels).fold(1.0, f64::max);
+        let parts = (turn / MAX_TURN_ERROR).sqrt().max(passed).ceil().min(f64::from(u32::MAX)) as u32;
         let parts = parts.min(settings.most_rapier_steps(f64::from(host.dt)) / host.steps).max(1);
         // an island that cannot step has no motion, and no state from before it
         let before = |island: usize, cable: usize| {
@@ -256,8 +258,8 @@ fn predict_islands(
         if !met && parts == 1 && overload.is_none() {
             break step;
         }
-        // a mechanism turned otherwise, a cable broke, or cables met that were not expected to:
-        // they are united, and the step begins anew
+        // a mechanism turned otherwise, a reel ran off, a cable broke, or cables met that were not
+        // expected to: they are united, and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);
             let disturbed = prediction.sleep.disturbed;
@@ -266,7 +268,7 @@ fn predict_islands(
             }
         }
         if parts > 1 {
-            return Ok(Predicted::Turned(parts));
+            return Ok(Predicted::Coarse(parts));
         }
         if let Some(at) = overload.filter(|_| !met) {
             return Ok(Predicted::Overloaded(at));
@@ -304,6 +306,15 @@ fn predict_islands(
     }
     stepper.pending = true;
     Ok(Predicted::Whole)
+}
+
+/// Returns into how many parts a Rapier step is to be divided because of what passes an eye in it:
+/// the rate of a reel that nothing drives may grow within.
+fn parts_for_reels(prediction: &Prediction) -> f64 {
+    match &prediction.error {
+        Some(Error::Cable(lariat_ancf::Error::FastReel { share, most, .. })) => share / most,
+        _ => 1.0,
+    }
 }
 
 /// Finds the islands of a Rapier step, and begins the prediction of all.

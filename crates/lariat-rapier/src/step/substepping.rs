@@ -9,7 +9,7 @@
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
 //! h v <= l/2                      of a body that collides at v, l the elements at its pins
 //! h v <= r                        of one whose cables have contact, or that cables press on, r their radius
-//! h v <= l/2                      of a reel at the rate v, l the element at its eye
+//! h v <= l/3                      of a reel at the rate v, l the element at its eye
 //! ```
 //! *Vibration.* Between two Rapier steps the reaction estimate of a body in contact is constant. If
 //! h is long compared with the period of the body on its taut cables, the estimate comes too late:

@@ -1,7 +1,7 @@
 //! Winches in a world.
 
 use super::common::{add_cube, cable, run};
-use lariat_rapier::lariat_ancf::{At, Damping, Reel, Section};
+use lariat_rapier::lariat_ancf::{At, Damping, Feed, Reel, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet};
 
@@ -211,5 +211,60 @@ fn stock_on_a_free_body_has_momentum_before_the_first_step() {
         for (off, size) in [after.linear - before.linear, after.angular - before.angular].iter().zip(sizes) {
             assert!(off.norm() < 1e-5 * size, "stock of {stock} m: {off} of {size}");
         }
+    }
+}
+
+/// A lure is thrown away from a free spool, faster than elements are long in a host step, and from rest of the line: the rate
+/// of the spool grows within one step to that of the lure. Nothing is refused, and the lure flies as far as its equation says.
+///
+/// *Source.* Balances of a straight line of mass m + w s, with no gravity and no force of the spool: from a drum that turns with the
+/// line v is constant; from a bag (m + w s) v^2 is; from a coil (m + w s) v (Irschik, Humer, The equations of Lagrange for a continuous
+/// deformable body with rigid body degrees of freedom and variable mass; the falling folded chain).
+#[test]
+fn a_line_runs_off_a_free_spool_faster_than_its_elements() {
+    for k in 0..24u32 {
+        let share = |factor: f64| (f64::from(k) * factor).fract();
+        let (speed, mass) = (10.0 + 30.0 * share(0.618), 0.01 * 10.0f64.powf(share(0.414)));
+        let per_length = mass * 0.004 * 10.0f64.powf(share(0.732));
+        // at most 32 steps in a host step, of a third of an element each
+        let most = 32.0 * 60.0 / (3.0 * speed);
+        let elements = (most * (0.4 + 0.6 * share(0.236))) as usize;
+        let feed = [Feed::Drum, Feed::Bag, Feed::Coil][k as usize % 3];
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::ZERO;
+        world.integration_parameters.dt = [1.0 / 60.0, 1.0 / 120.0][k as usize / 3 % 2];
+        let lure = RigidBodyBuilder::dynamic().translation(Vector::X).linvel(Vector::new(speed as Real, 0.0, 0.0));
+        let (lure, _) = world.insert(lure, ColliderBuilder::ball(0.01).mass(mass as Real));
+        let rod = world.insert_body(RigidBodyBuilder::fixed());
+        let mut set = CableSet::new();
+        let line = cable([0.0; 3], [1.0, 0.0, 0.0], Section::from_stiffness(200.0, 0.0, per_length).unwrap());
+        let line = line.elements(elements).gravity(Vector3::zeros()).damping(Damping { axial: 5e-3, bending: 0.0 });
+        let moving = k % 2 == 0;
+        let line = if moving { line.velocity(Vector3::new(speed, 0.0, 0.0)) } else { line };
+        let line = set.insert(line.build().unwrap());
+        set.attach(&world, line, At::Start, rod, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        set.attach(&world, line, At::End, lure, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        let spool = Reel { max_force: Some(0.0), feed, ..Reel::default() };
+        set.get_mut(line).unwrap().add_reel(At::Start, spool).unwrap();
+        let case =
+            format!("{k}: {speed:.1} m/s, {mass:.3} kg, {per_length:.1e} kg/m, {elements}, {feed:?}, moving: {moving}");
+        let start = mass + per_length;
+        // a line at rest is jerked to the speed of the lure
+        let speed = if moving { speed } else { speed * mass / start };
+        // s with (1 + b s)^p ds/dt = v
+        let (time, b) = (0.3, per_length / start);
+        let power = match feed {
+            Feed::Bag => 0.5,
+            Feed::Coil => 1.0,
+            _ => 0.0,
+        };
+        let way = ((1.0 + (power + 1.0) * b * speed * time).powf(1.0 / (power + 1.0)) - 1.0) / b;
+        let steps = (time / f64::from(world.integration_parameters.dt)).round() as usize;
+        for _ in 0..steps {
+            set.step(&mut world).unwrap_or_else(|error| panic!("{case}: {error}"));
+        }
+        let flown = f64::from(world.bodies[lure].translation().x) - 1.0;
+        println!("{case}: {flown:.4} m of {way:.4}");
+        assert!((flown / way - 1.0).abs() < 0.01, "{case}: {flown} m of {way} m");
     }
 }

@@ -6,7 +6,7 @@ use crate::element::variable_length::Extent;
 use crate::error::{Error, require};
 use crate::integrate::OneStep;
 use crate::reel::{Feed, Reel};
-use crate::scales::reel::{LARGEST_SHARE, MOST_PARTS, MOST_PARTS_OF_WAVE, PASSING, STANDING_RATE};
+use crate::scales::reel::{LARGEST_SHARE, MOST_PARTS, MOST_PARTS_OF_WAVE, PASSING, PLANNED_SHARE, STANDING_RATE};
 
 impl Cable {
     /// Returns the number of parts in which a host step of `dt` (s) is to be taken; 1 without a
@@ -98,8 +98,8 @@ impl Cable {
     ///
     /// # Errors
     /// [`Error::ReelPlace`] for an eye on a body that the cable moves, without a stock or without
-    /// the discrete gradient; [`Error::InvalidValue`] if more than half of an element would pass
-    /// the eye.
+    /// the discrete gradient; [`Error::FastReel`] if more than half of an element would pass the
+    /// eye.
     pub(crate) fn check_reel_in_island(
         &self,
         moves: impl Fn(usize) -> bool,
@@ -130,15 +130,9 @@ impl Cable {
             } else {
                 self.fastest_rate(side, dt)
             };
-            require_share(rate * dt, full)
-                .and_then(|()| {
-                    require(
-                        "length of the element at the eye over its full one",
-                        length / full,
-                        length < 2.5 * full,
-                        "< 2.5",
-                    )
-                })
+            self.require_share(rate * dt / full)?;
+            let share = length / full;
+            require("length of the element at the eye over its full one", share, share < 2.5, "< 2.5")
                 .map_err(|e| e.of_cable(self.name()))?;
         }
         Ok(())
@@ -149,7 +143,7 @@ impl Cable {
         let of_side = |side: Side| {
             let full = self.model.reels.element(self.number(side.element(self.elements().len()))).length;
             let length = self.snapshot.windings[side as usize].as_ref().map_or(full, |winding| winding.extent[0]);
-            self.fastest_rate(side, dt) * dt / (LARGEST_SHARE * full.min(length))
+            self.fastest_rate(side, dt) * dt / (PLANNED_SHARE * full.min(length))
         };
         self.model.reels.sides().map(of_side).fold(0.0, f64::max)
     }
@@ -159,7 +153,7 @@ impl Cable {
     /// grow within the step.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`].
+    /// [`Error::FastReel`].
     pub(crate) fn check_reach_of_reels(&self, dt: f64) -> Result<(), Error> {
         for feed in &self.system.feeds.list {
             let Some(winding) = &self.snapshot.windings[feed.side as usize] else { continue };
@@ -167,9 +161,17 @@ impl Cable {
             let [length, rate, _] = winding.extent;
             let moved = feed.at(self.snapshot.state.time).length - length;
             let passing = moved.abs().max(rate.abs() * dt);
-            require_share(passing, full.min(length)).map_err(|e| e.of_cable(self.name()))?;
+            self.require_share(passing / full.min(length))?;
         }
         Ok(())
+    }
+
+    /// Refuses a share of an element that is more than half.
+    fn require_share(&self, share: f64) -> Result<(), Error> {
+        let most = LARGEST_SHARE;
+        // a share that is not a number is none
+        let fits = share <= most;
+        if fits { Ok(()) } else { Err(Error::FastReel { cable: self.name().to_string(), share, most }) }
     }
 
     /// Notes at which eyes the stock rides with a body; `moves` as above.
@@ -212,11 +214,4 @@ impl Cable {
         let asked = rows.map(|row| row[1].abs()).fold(reel.asked(self.time(), None).abs(), f64::max);
         rate.max(asked.min(rate + reel.acceleration * dt))
     }
-}
-
-/// Refuses lengths in m that are more than half of an element.
-fn require_share(passing: f64, full: f64) -> Result<(), Error> {
-    let what =
-        "share of an element that its reel moves in a step of an island (take shorter steps, or longer elements)";
-    require(what, passing / full, passing <= LARGEST_SHARE * full, "<= 0.5")
 }
