@@ -157,6 +157,19 @@ impl Reel {
         way.map_or(rate, |way| if way.abs() > ARRIVED { rate.abs().copysign(way) } else { 0.0 })
     }
 
+    /// Returns the rate in m/s to which one at a time in s comes until another by the table:
+    /// towards each row from its time on, within the acceleration.
+    pub(crate) fn follow(&self, mut rate: f64, begin: f64, end: f64) -> f64 {
+        let mut time = begin;
+        while time < end {
+            let next = self.rate.iter().map(|row| row[0]).find(|row| *row > time).map_or(end, |row| row.min(end));
+            let most = self.acceleration * (next - time);
+            rate = self.asked(time, None).clamp(rate - most, rate + most);
+            time = next;
+        }
+        rate
+    }
+
     /// Returns the lengths in m that the table asks for and that its acceleration gives, from time
     /// 0 on until the rate is that of the last row, and the largest rate in m/s that is not
     /// reached; `None` where they are the same.

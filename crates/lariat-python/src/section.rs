@@ -81,9 +81,9 @@ impl Section {
     }
 
     /// A rope or chain of this nominal diameter in m, that of a chain of its bar, as catalogues
-    /// have them: ``"nylon"``, ``"polyester"``, ``"hmpe"``, ``"wire_rope"`` or ``"chain"``.
-    /// A cable of it has the axial law ``"rope"``, unless it is given another one: force over
-    /// elongation, and no push.
+    /// have them: ``"nylon"``, ``"polyester"``, ``"hmpe"``, ``"wire_rope"`` or ``"chain"``. A cable
+    /// of it has the axial law ``"rope"``, unless it is given another one: force over elongation,
+    /// and no push.
     ///
     /// Raises BuilderError for another material, InvalidValueError for a diameter that is not
     /// positive and at most 0.35 m.

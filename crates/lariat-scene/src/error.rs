@@ -243,6 +243,14 @@ pub enum Error {
         /// What allows no less.
         reason: &'static str,
     },
+    /// A moment of cables that have none.
+    #[error(
+        "--error {error}: no cable has bending stiffness, so that none carries a moment: ask for positions, or for tension"
+    )]
+    NoMoment {
+        /// What was asked for.
+        error: String,
+    },
     /// Runs that cannot be compared.
     #[error("--error {error}: {problem}")]
     Study {
@@ -299,6 +307,7 @@ impl Error {
             | Error::Import { .. }
             | Error::Read { .. }
             | Error::ErrorTooSmall { .. }
+            | Error::NoMoment { .. }
             | Error::TooLarge { .. }
             | Error::Busy { .. }
             | Error::InTheWay { .. }

@@ -360,3 +360,58 @@ fn the_claim_holds_where_the_host_step_limits_the_looser_run() {
         assert!(off <= claim.claimed_m.unwrap());
     }
 }
+
+/// The rule of fidelity `game` goes with its integrator, which an error that is asked for replaces: the same runs with and without the
+/// key, and a rule that the scene asks for stays.
+#[test]
+fn a_fidelity_says_nothing_about_the_runs_to_an_error() {
+    let plain = read("falling_pendulum", &["duration=0.3"], Purpose::Run);
+    let game = read("falling_pendulum", &["duration=0.3", "cable.0.integrator={ fidelity = \"game\" }"], Purpose::Run);
+    let [one, other] = [&plain, &game].map(|scene| execute(scene, Some(1e-3), Purpose::Run));
+    assert_eq!(claim(&one.0), claim(&other.0));
+    assert_eq!(apart(&plain, one.1.path(), other.1.path()), 0.0);
+    let asked = "cable.0.rule=\"projected-T1\"";
+    let own =
+        read("falling_pendulum", &["duration=0.3", "cable.0.integrator={ fidelity = \"game\" }", asked], Purpose::Run);
+    let own = execute(&own, Some(1e-3), Purpose::Run);
+    assert!(apart(&plain, one.1.path(), own.1.path()) > 0.0);
+}
+
+/// What no cable has is not studied.
+#[test]
+fn moments_of_cables_without_bending_stiffness_are_refused() {
+    let text = "duration = 1.0\n[[cable]]\nname = \"c\"\npoints = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]\nlength = 3.0\nsection = { chain = 0.006 }\n\
+                [[attachment]]\ncable = \"c\"\nat = \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"c\"\nat = \"end\"\nbody = \"world\"\n";
+    let scene = parse(text, Purpose::Static);
+    let folder = tempfile::tempdir().unwrap();
+    let mut options = Options { error: Some("moment=5%".parse().unwrap()), ..Options::default() };
+    let refused = run::statics(&scene, folder.path(), &mut options).unwrap_err();
+    assert!(
+        matches!(refused, Error::NoMoment { .. }) && refused.to_string().contains("bending stiffness"),
+        "{refused}"
+    );
+}
+
+/// An anchor that is drawn deep under the seabed that its chain touches: a shape that is found through it is told, by name.
+#[test]
+fn an_equilibrium_inside_a_body_is_told() {
+    let text = |depth: f64| {
+        format!(
+            "duration = 1.0\n[[body]]\nname = \"seabed\"\nkind = \"fixed\"\nshape = {{ plane = [0.0, 1.0, 0.0] }}\nposition = [0.0, -100.0, 0.0]\n[[cable]]\nname = \"chain\"\n\
+             points = [[0.0, {:?}, 0.0], [375.0, 0.0, 0.0]]\nlength = 400.0\nsection = {{ chain = 0.076 }}\nelements = 40\n[cable.contact]\n[[attachment]]\ncable = \"chain\"\n\
+             at = \"start\"\nbody = \"world\"\n[[attachment]]\ncable = \"chain\"\nat = \"end\"\nbody = \"world\"\n",
+            -100.0 - depth
+        )
+    };
+    for (depth, due) in [(-0.07, false), (1.0, true), (2.0, true)] {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = parse(&text(depth), Purpose::Static);
+        let found = run::statics(&scene, folder.path(), &mut Options::default());
+        let told = match &found {
+            Ok(summary) => summary.told.iter().any(|line| line.contains("inside body \"seabed\"")),
+            // what is refused is no silent answer
+            Err(_) => due,
+        };
+        assert_eq!(told, due, "{depth} m: {found:?}");
+    }
+}

@@ -245,6 +245,10 @@ def collect(effects: Effects) -> dict[str, Any]:
         plain = {}
         for key, value in effects.items():
             if hasattr(value, "key"):
+                if key != value.key:
+                    from lariat_cables.errors import EffectsError
+
+                    raise EffectsError(f"effects: {key!r} is given a {type(value).__name__}, whose key is {value.key!r}")
                 items.append(value)
             elif isinstance(value, (list, tuple)) and any(hasattr(item, "key") for item in value):
                 items.extend(value)

@@ -37,6 +37,7 @@ is small beside the mass of the bodies.
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable
 from typing import NamedTuple
@@ -64,7 +65,7 @@ REMEASURE = 10
 
 
 MADE = 0.05
-"""Share of all work exchanged so far, to and fro, that an exchange may make before it says so."""
+"""Share of all work exchanged so far, to and fro, or of the largest energy of motion of the cable, that an exchange may make before it says so."""
 STARTS = 10
 """Steps at the start that do not count: bodies may start at other velocities than their ends, and the shock is theirs."""
 
@@ -111,8 +112,8 @@ class Exchange:
         self._motion: EndMotion | None = None
         # forces in N that the last step owes the bodies
         self._owed: Array | float = 0.0
-        # steps, and work on the bodies in J: what the cable did, to and fro, and what they got beyond it
-        self._steps, self._work, self._made = 0, 0.0, 0.0
+        # steps, and in J: what the cable did on the bodies, to and fro, what they got beyond it, and its largest energy of motion
+        self._steps, self._work, self._made, self._motion_of_cable = 0, 0.0, 0.0, 0.0
         self._told: set[str] = set()
 
     def step(self, dt: float, move: Move) -> Exchanged:
@@ -139,10 +140,14 @@ class Exchange:
             pairs = zip(done.forces.moment, before.rotations, done.motion.rotations, strict=True)  # type: ignore[arg-type]
             got += float(sum(moment @ _turn(first, last) for moment, first, last in pairs))
         self._made += got - float(done.forces.work.sum())
-        if self._made > MADE * self._work:
+        # where hardly anything was exchanged yet, a share of that says nothing
+        self._motion_of_cable = max(self._motion_of_cable, self.coupling.cable.energy().kinetic)
+        scale = max(self._work, self._motion_of_cable)
+        if self._made > MADE * scale:
             self._tell(
                 "makes energy",
-                f"{self._made:.1e} J until {self.coupling.cable.time:.4f} s, of {self._work:.1e} J exchanged; take fidelity=\"game\", or a shorter step",
+                f"{self._made:.1e} J until {self.coupling.cable.time:.4f} s, of {scale:.1e} J exchanged or in motion; take fidelity=\"game\", or a "
+                "shorter step",
             )
 
     def _judge_step(self, dt: float, mobility: Array) -> None:
@@ -162,7 +167,7 @@ class Exchange:
         if what not in self._told:
             self._told.add(what)
             name = self.coupling.cable.name
-            warnings.warn(f"the exchange of cable {name!r} {what}: {details}", errors.ResultWarning, stacklevel=4)
+            warnings.warn(f"the exchange of cable {name!r} {what}: {details}", errors.ResultWarning, stacklevel=_outside())
 
     def _solve(self, dt: float, move: Move, before: bytes) -> Exchanged:
         z = self.coupling.impedance(0.5 * dt)
@@ -181,7 +186,7 @@ class Exchange:
         trials, nearest, best = 0, np.inf, force
         while trials < MOST_TRIALS:
             trials += 1
-            motion = EndMotion(*move(*_split(force + self._owed)))
+            motion = _moved(move(*_split(force + self._owed)))
             self.coupling.restore(before)
             try:
                 forces = self.coupling.step(dt, *motion)
@@ -218,7 +223,7 @@ class Exchange:
                 f"{value:.1e} of the largest force; take a shorter step than {dt} s",
                 value=value, cable=cable.name, time=cable.time,
             )  # fmt: skip
-        motion = EndMotion(*move(*_split(best + self._owed)))
+        motion = _moved(move(*_split(best + self._owed)))
         self.coupling.restore(before)
         forces = self.coupling.step(dt, *motion)
         self._forces, self._owed = _join(forces), _join(forces) - best
@@ -248,10 +253,25 @@ def measure(move: Move, force: Array, dt: float) -> Array:
     """Returns the velocities that unit forces, then moments, give the bodies over a step beside those under ``force``, shape (6 ends, 6 ends)."""
 
     def velocity(at: Array) -> Array:
-        motion = EndMotion(*move(*_split(at)))
+        motion = _moved(move(*_split(at)))
         linear = np.asarray(motion.positions, float) / dt if motion.velocities is None else np.asarray(motion.velocities, float)
         spin = np.zeros_like(linear) if motion.angular_velocities is None else np.asarray(motion.angular_velocities, float)
         return np.hstack([linear, spin]).ravel()
 
     still = velocity(force)
     return np.stack([velocity(force + unit) - still for unit in np.eye(len(force))], axis=1)
+
+
+def _moved(motion: object) -> EndMotion:
+    """Returns what ``move`` returned, if it is a motion of the ends."""
+    if not isinstance(motion, tuple) or not 1 <= len(motion) <= len(EndMotion._fields):
+        raise errors.InvalidValueError(f"move returns {type(motion).__name__}: it must return an EndMotion(positions, rotations, velocities, angular_velocities)")
+    return EndMotion(*motion)
+
+
+def _outside() -> int:
+    """Returns the level of the first caller that is not of this package, for a warning that the caller of this function gives."""
+    level, frame = 1, sys._getframe(1)
+    while frame is not None and frame.f_globals.get("__name__", "").split(".")[0] == __name__.split(".")[0]:
+        level, frame = level + 1, frame.f_back  # type: ignore[assignment]
+    return level

@@ -146,7 +146,12 @@ def _points(vary: Mapping[str, Iterable[Any]] | None, points: Iterable[Mapping[s
         raise InvalidValueError("a sweep needs vary, values by key, or points, a list of settings")
     grid = {key: list(values) for key, values in (vary or {}).items()}
     combinations = [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
-    return [{**point, **combination} for point in ([{}] if points is None else points) for combination in combinations]
+    if isinstance(points, Mapping):
+        raise InvalidValueError("points is a list of settings, as [{'cable.sling.elements': 10}]; a mapping of values by key is vary")
+    rows = [{**point, **combination} for point in ([{}] if points is None else points) for combination in combinations]
+    if not rows:
+        raise InvalidValueError("a sweep needs at least one point; points, or the values of a key of vary, are empty")
+    return rows
 
 
 class _Job:
@@ -164,7 +169,7 @@ class _Job:
         run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
         row = json.loads(line)
         if row["error"] is None:
-            row["results"].update({name: float(function(run)) for name, function in self.reduce.items()})
+            row["results"].update({name: _number(name, function(run)) for name, function in self.reduce.items()})
         return json.dumps(row), {name: _series(run, name) for name in self.series}
 
     def lacks(self, line: str | None) -> bool:
@@ -173,6 +178,14 @@ class _Job:
             return True
         row = json.loads(line)
         return row["error"] is None and not all(name in row["results"] for name in self.reduce)
+
+
+def _number(name: str, value: Any) -> float:
+    """Returns what a function of ``reduce`` returned, if it is a number."""
+    try:
+        return float(value)
+    except (TypeError, ValueError) as error:
+        raise InvalidValueError(f"the function {name!r} of reduce returns {type(value).__name__}: it must return one number; arrays are kept by series") from error
 
 
 def _series(run: Run, name: str) -> NDArray[np.float64]:

@@ -81,9 +81,9 @@ pub fn step_all<'py>(
 }
 
 /// Advances cables that may touch each other (``Contact(cables=True)``) by ``steps`` steps of
-/// ``dt`` (s), in one system, with the integrator of the first. Warns as ``Cable.step`` does, once for all.
-/// Raises DuplicateCableError,
-/// EmptyIslandError, TimeMismatchError, StepFailedError; the steps before a failed one are made.
+/// ``dt`` (s), in one system, with the integrator of the first. Warns as ``Cable.step`` does, once
+/// for all. Raises DuplicateCableError, EmptyIslandError, TimeMismatchError, StepFailedError; the
+/// steps before a failed one are made.
 #[pyfunction]
 #[pyo3(signature = (cables, dt, *, steps=1))]
 pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: usize) -> PyResult<()> {

@@ -6,6 +6,7 @@ use crate::error::{Raise, raise};
 use crate::integrator::Choice;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{Error, PointLoad, Vector3};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::borrow::Cow;
@@ -65,6 +66,9 @@ impl Cable {
         ramp: f64,
         history: Option<Vec<[f64; 2]>>,
     ) -> PyResult<()> {
+        if force.is_none() && moment.is_none() {
+            return Err(PyTypeError::new_err("add_load needs a force, a moment, or both"));
+        }
         let [force, moment] = [force, moment].map(|v| v.map_or(Vector3::zeros(), |v| v.0));
         let history = history.unwrap_or_default();
         self.change(py, |cable| {

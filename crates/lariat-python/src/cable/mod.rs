@@ -53,9 +53,9 @@ enum Home {
 /// in m where it begins, section).
 /// - ``length``: unstretched, in m; by default that of the polyline. Longer: it starts slack, in
 ///   arcs that sag along gravity.
-/// - ``pretension``, ``sag``: instead of ``length``, that with which it has this tension in N at its
-///   middle, or hangs by this distance in m below the line between its ends, when it hangs between
-///   them under its weight, loads per length and buoyancy.
+/// - ``pretension``, ``sag``: instead of ``length``, that with which it has this tension in N at
+///   its middle, or hangs by this distance in m below the line between its ends, when it hangs
+///   between them under its weight, loads per length and buoyancy.
 /// - ``elements``: default 10. ``nodes_at``: arc lengths in m that get a node.
 /// - ``finest``: length in m of the elements at ``finest_at``, by default both ends, from where
 ///   they grow by a constant ratio up to their number: for moments at clamps and loads, within

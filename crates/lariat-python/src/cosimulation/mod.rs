@@ -143,8 +143,9 @@ impl CoSimulation {
     /// Advances the cable by ``dt`` (s) while the bodies move to ``positions`` (m, shape (ends,
     /// 3)), ``rotations`` (shape (ends, 4); default: unchanged) with ``velocities`` (m/s) and
     /// ``angular_velocities`` (rad/s) at the end of the step (shape (ends, 3); default: uniform
-    /// motion over the step). Warns as ``Cable.step`` does. Raises ShapeError, InvalidValueError, GapTooLongError (something else
-    /// moved an end by more than 1e-3 m), and StepFailedError, after which all is as before.
+    /// motion over the step). Warns as ``Cable.step`` does. Raises ShapeError, InvalidValueError,
+    /// GapTooLongError (something else moved an end by more than 1e-3 m), and StepFailedError,
+    /// after which all is as before.
     #[pyo3(signature = (dt, positions, rotations=None, velocities=None, angular_velocities=None))]
     fn step<'py>(
         &self,

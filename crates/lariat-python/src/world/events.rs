@@ -59,9 +59,9 @@ impl World {
     /// all is stable. Cables with contact lie on fixed and kinematic colliders, without friction;
     /// where bodies touch others or would fall on them, or cables touch each other, themselves or
     /// bodies that they move, all comes to rest by its motion, from where it is drawn. Raises
-    /// NoEquilibriumError, JointInStaticsError, CableTouchesInStaticsError, and, where not all comes
-    /// to rest, NotHeldInStaticsError, ContactInStaticsError, CablesPassInStaticsError, CablePassesBodyInStaticsError,
-    /// MovesInStaticsError; all is then as before.
+    /// NoEquilibriumError, JointInStaticsError, CableTouchesInStaticsError, and, where not all
+    /// comes to rest, NotHeldInStaticsError, ContactInStaticsError, CablesPassInStaticsError,
+    /// CablePassesBodyInStaticsError, MovesInStaticsError; all is then as before.
     fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let found = self.0.compute(py, |contents| contents.set.equilibrium(&mut contents.world)).map_err(raise)?;
         let handles = |bodies: &[RigidBodyHandle]| -> PyResult<Vec<Bound<'py, PyAny>>> {

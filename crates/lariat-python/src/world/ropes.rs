@@ -101,11 +101,11 @@ impl World {
         joined.map_err(raise)
     }
 
-    /// Frees the slope of a cable at a point between its ends, on both sides, as a hinge does: where
-    /// a point load or a junction bends a cable that is limp, sqrt(EI/T) far below an element. The
-    /// cable becomes two that share the point; ``cable`` keeps the part before it. Returns the other
-    /// part and the number of the junction of both. No moment and no torque goes through it. Raises
-    /// NoCableError, AlreadyAttachedError, OutOfRangeError, NotWithReelError.
+    /// Frees the slope of a cable at a point between its ends, on both sides, as a hinge does:
+    /// where a point load or a junction bends a cable that is limp, sqrt(EI/T) far below an
+    /// element. The cable becomes two that share the point; ``cable`` keeps the part before it.
+    /// Returns the other part and the number of the junction of both. No moment and no torque goes
+    /// through it. Raises NoCableError, AlreadyAttachedError, OutOfRangeError, NotWithReelError.
     fn add_kink(&self, py: Python<'_>, cable: &Cable, at: Place) -> PyResult<(Cable, usize)> {
         let handle = cable.handle_in(&self.0)?;
         let added = self.0.compute(py, |contents| {

@@ -90,10 +90,10 @@ impl World {
     ///
     /// ``drag_area`` is drag coefficient times area (m^2), ``spin_drag`` the coefficient of the
     /// quadratic drag of rotation (m^5), both (3,) along the axes of the body, none by default.
-    /// ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere: a number, or
-    /// (3,) along the axes of the body. ``volume`` (m^3) is by default that of its colliders. The body has now its mass and colliders; call it
-    /// again after they change. Raises NoWaterError, NoBodyError, NotDynamicError, WaterValueError,
-    /// NoVolumeError.
+    /// ``added_mass`` is the coefficient on the mass that it displaces, 0.5 of a sphere: a number,
+    /// or (3,) along the axes of the body. ``volume`` (m^3) is by default that of its colliders.
+    /// The body has now its mass and colliders; call it again after they change. Raises
+    /// NoWaterError, NoBodyError, NotDynamicError, WaterValueError, NoVolumeError.
     #[pyo3(signature = (body, drag_area=None, *, spin_drag=None, added_mass=None, volume=None))]
     fn immerse(
         &self,

@@ -58,6 +58,14 @@ impl Default for Gap {
 }
 
 impl Gap {
+    /// Returns the length in m up to which a gap is closed.
+    pub(crate) fn allowed(self) -> f64 {
+        match self {
+            Gap::Refuse(limit) => limit,
+            Gap::Close => f64::MAX,
+        }
+    }
+
     /// Checks the distance between a point of a cable and what it is to be attached to, in m.
     pub(crate) fn check(
         self,

@@ -4,7 +4,7 @@
 //!
 //! A gap is an error of position. Once an attachment has been closed to within the limit that
 //! positions are warned at, 2e-3 of the length of the cable, a larger gap is told; so is an
-//! attachment that never closed.
+//! attachment that never closed, at once where its gap is longer than it may begin with.
 
 use crate::scales::contents::OPEN_GAP;
 use serde::{Deserialize, Serialize};
@@ -25,6 +25,9 @@ pub struct OpenGap {
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct GapWatch {
     closed: bool,
+    /// Length in m with which it may begin.
+    #[serde(default)]
+    allowed: f64,
     /// Largest gap in m since it closed, or if it did not, the least; and its time in s.
     worst: Option<(f64, f64)>,
     /// Whether it has been told.
@@ -35,17 +38,25 @@ pub(crate) struct GapWatch {
 }
 
 impl GapWatch {
+    /// Begins with a gap of a length in m at most.
+    pub fn new(allowed: f64) -> Self {
+        GapWatch { allowed, ..GapWatch::default() }
+    }
+
     /// Reads a gap in m at the end of a host step at a time in s, with a cable of a length in m.
-    /// Returns what to tell: once, a gap that opened after it had closed.
+    /// Returns what to tell: once, a gap that opened after it had closed, or one that was there
+    /// before the first step and may not be.
     pub fn note(&mut self, gap: f64, time: f64, length: f64) -> Option<OpenGap> {
         if !self.closed && gap <= OPEN_GAP * length {
-            *self = GapWatch { closed: true, introduced: self.introduced, ..GapWatch::default() };
+            let GapWatch { introduced, allowed, .. } = *self;
+            *self = GapWatch { closed: true, introduced, allowed, ..GapWatch::default() };
         }
         let keep = self.worst.is_some_and(|(worst, _)| if self.closed { worst >= gap } else { worst <= gap });
         if !keep {
             self.worst = Some((gap, time));
         }
-        let open = self.open(length).filter(|_| self.closed && !self.told)?;
+        let due = |open: &OpenGap| !self.told && (open.closed || open.gap > self.allowed);
+        let open = self.open(length).filter(due)?;
         self.told = true;
         Some(open)
     }

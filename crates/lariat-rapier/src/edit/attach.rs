@@ -57,7 +57,7 @@ pub(crate) fn attach(
         ledger: None,
         last_anchor: None,
         reading: AttachmentReading::default(),
-        watch: GapWatch::default(),
+        watch: GapWatch::new(gap.allowed()),
         lost_link: false,
         at_eye: false,
         from_start: 0,

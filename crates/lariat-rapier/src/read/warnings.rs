@@ -137,10 +137,20 @@ pub enum Warning {
         /// Name of its cable.
         name: String,
     },
+    /// A dynamic body that has no mass: Rapier does not move it.
+    #[error(
+        "cable {name:?}: the body of an attachment is dynamic and has no mass, so that Rapier moves it by no force: give it a collider or a mass, or make it fixed"
+    )]
+    NoMass {
+        /// The attachment.
+        attachment: AttachmentHandle,
+        /// Name of its cable.
+        name: String,
+    },
     /// A kinematic body that Rapier turns at another angular velocity than its own.
     #[error(
-        "cable {name:?}: the body of an attachment has an angular velocity of {asked:.4} rad/s, and Rapier turns it by {turned:.4} rad/s: by pi/4 in a step at most unless \
-         `allow_fast_rotation` is set, by less in each solver iteration the farther that turns, and beyond half a turn the shorter way; take more `Settings::rapier_steps`"
+        "cable {name:?}: the body of an attachment has an angular velocity of {asked:.4} rad/s, and Rapier turns it by {turned:.4} rad/s: by pi/4 in a step at most unless it is \
+         allowed to rotate fast, by less in each solver iteration the farther that turns, and beyond half a turn the shorter way; take more `Settings::rapier_steps`"
     )]
     LostSpin {
         /// The attachment.
@@ -187,6 +197,7 @@ impl Warning {
             | Warning::VelocityJump { .. }
             | Warning::FarAnchor { .. }
             | Warning::MixedJoints { .. }
+            | Warning::NoMass { .. }
             | Warning::LostSpin { .. }
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => Level::Setup,
@@ -213,6 +224,7 @@ impl Warning {
             | Warning::Unsettled { attachment, .. }
             | Warning::FarAnchor { attachment, .. }
             | Warning::MixedJoints { attachment, .. }
+            | Warning::NoMass { attachment, .. }
             | Warning::LostSpin { attachment, .. }
             | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
             Warning::LengthUnit { .. } => None,
@@ -233,6 +245,7 @@ impl Judged for Warning {
             Warning::VelocityJump { .. } => Some(Sign::Shock),
             Warning::Unsettled { .. }
             | Warning::MixedJoints { .. }
+            | Warning::NoMass { .. }
             | Warning::LostSpin { .. }
             | Warning::LengthUnit { .. }
             | Warning::HighRestitution { .. } => None,
@@ -265,7 +278,7 @@ impl Judged for Warning {
             Warning::FarAnchor { distance, radius, .. } => distance / radius,
             Warning::LengthUnit { unit } => *unit,
             Warning::LostSpin { asked, .. } => *asked,
-            Warning::MixedJoints { .. } => 0.0,
+            Warning::MixedJoints { .. } | Warning::NoMass { .. } => 0.0,
         }
     }
 }
@@ -297,6 +310,7 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
         warnings.extend(of_attachment(contents, attachment, a, world));
         warnings.extend(far_anchor(contents, attachment, a, world));
         warnings.extend(mixed_joints(contents, attachment, a, world));
+        warnings.extend(no_mass(contents, attachment, a, world));
         if let (Ok(Some(how)), Ok(cable)) = (unsettled(contents, attachment), contents.cable(a.cable)) {
             warnings.push(Warning::Unsettled { attachment, name: cable.name().to_string(), how });
         }
@@ -414,6 +428,22 @@ fn mixed_joints(
     mechanism::is_mixed(world, own.body).then_some(Warning::MixedJoints { attachment, name })
 }
 
+/// Returns whether the body of an attachment is dynamic without a mass that moves it.
+fn no_mass(
+    contents: &Contents,
+    attachment: AttachmentHandle,
+    own: &Attachment,
+    world: &PhysicsWorld,
+) -> Option<Warning> {
+    let body = world.bodies.get(own.body).filter(|body| body.is_dynamic() && body.is_enabled())?;
+    let name = contents.cable(own.cable).ok()?.name().to_string();
+    // what colliders and the user add counts from the next step on only
+    let added = body.mass_properties().additional_local_mprops.is_some();
+    let has_mass = |handle: &ColliderHandle| world.colliders.get(*handle).is_some_and(|collider| collider.mass() > 0.0);
+    let moves = body.mass() > 0.0 || added || body.is_translation_locked() || body.colliders().iter().any(has_mass);
+    (!moves).then_some(Warning::NoMass { attachment, name })
+}
+
 /// Returns what is to be said where Rapier does not turn the body of an attachment as it was asked.
 fn lost_spin(attachment: AttachmentHandle, name: &str, LostSpin { asked, turned }: LostSpin) -> Warning {
     Warning::LostSpin { attachment, name: name.to_string(), asked, turned }
@@ -442,7 +472,7 @@ pub(crate) fn introduce(contents: &mut Contents, world: &PhysicsWorld, (asked, i
         let is_new = contents.attachments.get_mut(index).is_some_and(|attachment| attachment.watch.introduce());
         let Some(own) = contents.attachments.get(index).filter(|_| is_new) else { continue };
         let is_watched = contents.cable(own.cable).is_ok_and(Cable::is_watched);
-        let of = [of_attachment, far_anchor, mixed_joints]
+        let of = [of_attachment, far_anchor, mixed_joints, no_mass]
             .map(|of| of(contents, AttachmentHandle(index as u32), own, world));
         of.iter().flatten().filter(|_| is_watched).for_each(|warning| log::warn!("{}", interface.text(warning)));
     }

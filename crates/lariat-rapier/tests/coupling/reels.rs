@@ -268,3 +268,51 @@ fn a_line_runs_off_a_free_spool_faster_than_its_elements() {
         assert!((flown / way - 1.0).abs() < 0.01, "{case}: {flown} m of {way} m");
     }
 }
+
+/// Tables of rates with rows at tenths of seconds, which single precision puts on either side of the ends of host steps, and at any
+/// times: the length that is out is that of the table at each row, on a fixed body and with a motor that is strong enough.
+///
+/// *Source.* The table, ramped from each row on by the acceleration: its integral. Where a ramp begins or ends within a host step of h, a
+/// rate that is linear over the step is off by a h^2/8 of length.
+#[test]
+fn a_table_of_rates_counts_from_its_rows() {
+    for k in 0..24u32 {
+        let share = |factor: f64| (f64::from(k + 1) * factor).fract();
+        let tenths = k % 3 != 0;
+        let time = |x: f64| if tenths { (10.0 * x).round() / 10.0 } else { x };
+        let rows = [
+            [time(0.2 + 0.3 * share(0.618)), 0.8 * share(0.414) - 0.4],
+            [time(0.8 + 0.3 * share(0.732)), 0.8 * share(0.236) - 0.4],
+            [time(1.4 + 0.3 * share(0.549)), 0.0],
+        ];
+        let acceleration = 1.5 + 3.0 * share(0.303);
+        let dt = [1.0 / 60.0, 0.01, 1.0 / 50.0, 1.0 / 240.0][k as usize % 4];
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = dt as Real;
+        let load = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
+        let post = world.insert_body(RigidBodyBuilder::fixed());
+        let mut set = CableSet::new();
+        let rope = cable([0.0; 3], [0.0, -2.0, 0.0], section()).damping(Damping { axial: 0.01, bending: 0.01 });
+        let rope = set.insert(rope.build().unwrap());
+        set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        set.attach(&world, rope, At::Start, post, Vector::ZERO, AttachmentKind::Ball).unwrap();
+        let max_force = (k % 2 == 1).then_some(1e4);
+        let reel = Reel { rate: rows.to_vec(), acceleration, max_force, ..Reel::default() };
+        set.get_mut(rope).unwrap().add_reel(At::Start, reel).unwrap();
+        // the integral of the table
+        let (mut rate, mut length, mut corners) = (0.0f64, 2.0, 0.0);
+        for (i, row) in rows.iter().enumerate() {
+            let until = rows.get(i + 1).map_or(2.0, |next| next[0]) - row[0];
+            let rising = ((row[1] - rate).abs() / acceleration).min(until);
+            let reached = rate + rising * acceleration.copysign(row[1] - rate);
+            length += 0.5 * (rate + reached) * rising + reached * (until - rising);
+            (rate, corners) = (reached, corners + 2.0);
+        }
+        let steps = (2.0 / dt).round() as usize;
+        run(&mut world, &mut set, steps);
+        let out = set.get(rope).unwrap().reel(At::Start).unwrap().length_out;
+        let bound = corners * acceleration * dt * dt / 8.0 + 1e-6;
+        println!("{k}: {dt}, {rows:?}, {max_force:?}: {out} m of {length}, {:.1e} of {bound:.1e}", out - length);
+        assert!((out - length).abs() < bound, "{k}: {rows:?}, {acceleration}, {dt} s: {out} m of {length}, {bound}");
+    }
+}

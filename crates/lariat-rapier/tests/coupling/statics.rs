@@ -2,7 +2,7 @@
 
 use super::common::{add_cube, cable, gap, l_stable_integrator, run, soft, steel, tension, wire};
 use lariat_rapier::convert::vector;
-use lariat_rapier::lariat_ancf::{At, Integrator, Section, StepControl, Vector3};
+use lariat_rapier::lariat_ancf::{At, Drag, Effects, Flow, Integrator, Section, StepControl, Vector3};
 use lariat_rapier::rapier::prelude::*;
 use lariat_rapier::{AttachmentKind, CableSet, Error};
 
@@ -288,4 +288,43 @@ fn limits_of_joints_hold_a_load_in_statics() {
         }
         assert!(pull < 2.2 * limp.mass_per_length * 9.81, "{pull} N");
     }
+}
+
+/// A wind that is zero when the lamp is put into equilibrium, and rises later, blows it aside as it does without statics; and one that
+/// falls to zero.
+///
+/// *Source.* The same world that was not put into equilibrium, and the balance of moments about the top: tan a = (F L/2)/(m g L + w g L/2)
+/// for a straight rope, F its drag.
+#[test]
+fn a_wind_that_is_zero_in_statics_blows_afterwards() {
+    let angle = |rows: [[f64; 2]; 2], settled: bool| {
+        let mut world = PhysicsWorld::new();
+        let flow = Flow::uniform(Vector3::new(0.0, 0.0, 15.0)).with_history(rows);
+        let drag = Some(Drag::new(1.2, 1.2, 0.01, flow));
+        let rope =
+            cable([0.0; 3], [0.0, -1.0, 0.0], steel()).elements(4).effects(Effects { drag, ..Effects::default() });
+        let mut set = CableSet::new();
+        let rope = rope.fidelity(lariat_rapier::lariat_ancf::Fidelity::Game).fix(At::Start);
+        let rope = set.insert(rope.build().unwrap());
+        let lamp = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, -1.1, 0.0)).linear_damping(2.0);
+        let (lamp, _) = world.insert(lamp.angular_damping(2.0), ColliderBuilder::ball(0.1).mass(2.0));
+        set.attach(&world, rope, At::End, lamp, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+        if settled {
+            set.equilibrium(&mut world).unwrap();
+        }
+        run(&mut world, &mut set, 1200);
+        let end = set.get(rope).unwrap().sample(1.0).unwrap().position;
+        end.z.atan2(-end.y)
+    };
+    let weight = 9.81 * (2.0 + 0.5 * steel().mass_per_length);
+    let expected = 0.5 * (0.5 * 1.2 * 1.2 * 0.01 * 15.0 * 15.0) / weight;
+    for rows in [[[2.0, 0.0], [3.0, 1.0]], [[0.0, 0.0], [0.5, 1.0]], [[0.0, 0.5], [1.0, 1.0]]] {
+        let [settled, drawn] = [true, false].map(|settled| angle(rows, settled));
+        println!("{rows:?}: {settled} {drawn} {expected}");
+        assert!(
+            (settled / drawn - 1.0).abs() < 5e-3 && (drawn / expected - 1.0).abs() < 0.03,
+            "{settled} {drawn} {expected}"
+        );
+    }
+    assert!(angle([[1.0, 1.0], [2.0, 0.0]], true).abs() < 1e-3);
 }

@@ -288,11 +288,12 @@ fn a_gap_that_is_still_to_close_is_told_when_asked_for() {
     assert_eq!((set.open_gap(hook), set.take_events()), (Ok(None), vec![]));
 }
 
-/// A load on a rope that a game puts elsewhere: the gap is told, and neither the steps nor the mesh
-/// that cannot follow it. Fidelity game is told nothing of mesh and steps, whatever happens to it.
+/// A load on a rope that a game puts elsewhere, before the first step or after some: the gap is told,
+/// and neither the steps nor the mesh that cannot follow it. Fidelity game is told nothing of mesh and
+/// steps, whatever happens to it.
 #[test]
 fn a_body_that_is_put_elsewhere_is_told_as_a_gap() {
-    for level in [None, Some(Level::Coarse)] {
+    for (level, steps) in [(None, 30), (Some(Level::Coarse), 30), (None, 0)] {
         let mut world = PhysicsWorld::new();
         let mut set = CableSet::new();
         set.settings.warn_level = level;
@@ -300,7 +301,7 @@ fn a_body_that_is_put_elsewhere_is_told_as_a_gap() {
         let rope = set.insert(rope.build().unwrap());
         let load = add_cube(&mut world, 5.0, 0.1, [0.0, -2.1, 0.0]);
         let hook = set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
-        assert_eq!(events(&mut set, &mut world, 30), []);
+        assert_eq!(events(&mut set, &mut world, steps), []);
         world.bodies[load].set_translation(Vector::new(1.0, -0.6, 0.0), true);
         let events = events(&mut set, &mut world, 60);
         let opened = |e: &Event| matches!(e, Event::GapOpened { attachment, .. } if *attachment == hook);
@@ -308,7 +309,33 @@ fn a_body_that_is_put_elsewhere_is_told_as_a_gap() {
         let coarse = |e: &Event| matches!(e, Event::Warning { warning, .. } if warning.level() == Level::Coarse);
         assert!(!events.iter().any(coarse), "{events:?}");
         let told = set.warnings(&world);
-        assert!(matches!(told[..], [Warning::OpenGap { .. }]), "{told:?}");
+        assert!(steps == 0 || matches!(told[..], [Warning::OpenGap { .. }]), "{told:?}");
+    }
+}
+
+/// A dynamic body that was given neither a collider nor a mass is told; one with either, or that may not
+/// move, is not.
+#[test]
+fn a_dynamic_body_without_mass_is_told() {
+    let told = |body: RigidBodyBuilder, collider: Option<ColliderBuilder>, steps: usize| {
+        let mut world = PhysicsWorld::new();
+        let body = match collider {
+            Some(collider) => world.insert(body, collider).0,
+            None => world.insert_body(body),
+        };
+        let mut set = CableSet::new();
+        let rope = set.insert(cable([0.0; 3], [2.0, 0.0, 0.0], soft()).fix(At::Start).build().unwrap());
+        let at = AttachmentKind::Ball.with_gap(Gap::Close);
+        set.attach(&world, rope, At::End, body, Vector::ZERO, at).unwrap();
+        run(&mut world, &mut set, steps);
+        set.warnings(&world).iter().any(|warning| matches!(warning, Warning::NoMass { .. }))
+    };
+    let dynamic = || RigidBodyBuilder::dynamic().translation(Vector::X * 2.0);
+    for steps in [0, 3] {
+        assert!(told(dynamic(), None, steps) && told(dynamic(), Some(ColliderBuilder::ball(0.1).mass(0.0)), steps));
+        assert!(!told(dynamic().additional_mass(2.0), None, steps) && !told(RigidBodyBuilder::fixed(), None, steps));
+        assert!(!told(dynamic(), Some(ColliderBuilder::ball(0.1)), steps));
+        assert!(!told(dynamic().lock_translations(), None, steps));
     }
 }
 

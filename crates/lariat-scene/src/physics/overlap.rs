@@ -3,7 +3,11 @@
 use super::Physics;
 use crate::scene::Scene;
 use crate::warning::Warning;
+use lariat_ancf::coupling::Coupling;
 use lariat_rapier::{collider_of, deepest_inside};
+
+/// Depth in a body, as a share of the length, beyond which a cable is not in equilibrium on it: the error of position that is told of a mesh.
+const SUNK: f64 = 2e-3;
 
 impl Physics {
     /// Returns a warning for each cable and body where the cable runs through the body, beyond what an attachment needs.
@@ -28,6 +32,22 @@ impl Physics {
             Warning::StartsInside { cable, body, at_m, depth_m, own }
         };
         deepest.into_iter().map(name).collect()
+    }
+
+    /// Returns the warnings of [`inside`](Self::inside) about cables in equilibrium that contact should keep out, and that are
+    /// deeper than an error of position that is told: their equilibrium is none.
+    pub fn sunk(&mut self, scene: &Scene) -> Vec<Warning> {
+        let touches = |name: &str| {
+            let cable = self.cables.iter().map(|(_, cable)| cable).find(|cable| cable.name() == name)?;
+            cable.effects().contact.map(|_| (SUNK * cable.length()).max(cable.contact_radius()))
+        };
+        let limits: Vec<Option<f64>> = scene.cables.iter().map(|cable| touches(&cable.name)).collect();
+        let limit = |name: &str| scene.cables.iter().position(|cable| cable.name == name).and_then(|c| limits[c]);
+        let sunk = |warning: &Warning| match warning {
+            Warning::StartsInside { cable, depth_m, .. } => limit(cable).is_some_and(|limit| *depth_m > limit),
+            _ => false,
+        };
+        self.inside(scene).into_iter().filter(sunk).collect()
     }
 
     /// Returns the name of the body that a cable knows as an obstacle by a key.

@@ -6,10 +6,11 @@ use super::{Done, Open, Options, Recorded, simulate};
 use crate::error::Error;
 use crate::scene::body::{BodyKind, BodyScene};
 use crate::scene::elements::Fine;
+use crate::scene::load::BodyLoadScene;
 use crate::scene::{Engine, Purpose, Scene};
 use crate::warning::Warning;
-use lariat_ancf::Vector3;
-use lariat_ancf::study::{Claim, FailedRun, Outcome, Proof, Record, Resolution, Study, StudyError, Target};
+use lariat_ancf::study::{Claim, FailedRun, Outcome, Proof, Quantity, Record, Resolution, Study, StudyError, Target};
+use lariat_ancf::{Fidelity, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -57,6 +58,10 @@ impl ErrorClaim {
         let kinematic = scene.bodies.iter().any(|body| body.kind == BodyKind::Kinematic);
         if kinematic && purpose != Purpose::Static {
             not_covered.push("motion of kinematic bodies within a host step");
+        }
+        let varies = |load: &BodyLoadScene| load.load.ramp > 0.0 || !load.load.history.is_empty();
+        if purpose != Purpose::Static && scene.body_loads.iter().any(varies) {
+            not_covered.push("loads on bodies that change within a host step, which has their mean");
         }
         if jumps {
             not_covered.push("what buckles when velocities jump");
@@ -164,6 +169,10 @@ pub(super) fn conduct(
             cable.fine = Fine::Nowhere;
             // a load inside an element is nearer to the nodes of one mesh than to those of the next, and distances say nothing
             cable.nodes_at_loads = true;
+            // that of a fidelity goes with its integrator
+            if cable.rule_by_fidelity {
+                cable.rule = Fidelity::Engineering.rule();
+            }
             if purpose != Purpose::Static {
                 cable.integrator = resolution.integrator().into();
             }
@@ -259,6 +268,11 @@ fn check(scene: &Scene, target: Target) -> Result<(), Error> {
         let cables = scene.cables.iter().flat_map(|cable| cable.points.iter().copied());
         let far = bodies.chain(cables).fold(1.0, |far: f64, p: Vector3<f64>| far.max(p.norm()));
         least = (least.0.max(LEAST_SINGLE * far), "the single precision of bodies");
+    }
+    if target.quantity == Quantity::Moment
+        && scene.cables.iter().all(|cable| cable.mean_of(|section| section.bending_stiffness) == 0.0)
+    {
+        return Err(Error::NoMoment { error: target.to_string() });
     }
     if target.of_positions().is_none() {
         least.0 = match (target.relative, scene.engine == Engine::Rapier) {

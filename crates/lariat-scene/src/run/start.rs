@@ -93,6 +93,9 @@ impl World {
             }
         }
         if fully {
+            if let Some(physics) = &mut self.physics {
+                self.warnings.extend(physics.sunk(&self.scene));
+            }
             return self.read_statics(&reports);
         }
         if let Some(physics) = self.physics.as_mut().filter(|_| settles) {

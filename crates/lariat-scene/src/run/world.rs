@@ -89,7 +89,9 @@ impl World {
     /// of by default is its own choice, and what is about the run is told if it is of any cable.
     pub(super) fn told(&mut self) -> Vec<String> {
         fold::sort(&mut self.warnings);
-        let levels: Vec<(&str, Level)> = self.cables().iter().map(|c| (c.name(), c.warn_level())).collect();
+        // what fidelity game leaves out is about steps for a bounded cost, and statics have none
+        let level = |cable: &Cable| if self.statics.is_some() { Level::Coarse } else { cable.warn_level() };
+        let levels: Vec<(&str, Level)> = self.cables().iter().map(|c| (c.name(), level(c))).collect();
         let most = levels.iter().map(|(_, level)| *level).max().unwrap_or(Level::Coarse);
         let of = |name: &str| levels.iter().find(|(cable, _)| *cable == name).map_or(most, |(_, level)| *level);
         let tells = |w: &Warning| w.level() <= self.warn_level.unwrap_or_else(|| w.cable().map_or(most, of));

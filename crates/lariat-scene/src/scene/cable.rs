@@ -133,6 +133,8 @@ pub struct CableScene {
     pub sections: Sections,
     /// Force strategy.
     pub rule: Rule,
+    /// Whether that is the one of a fidelity, and not one that was asked for.
+    pub rule_by_fidelity: bool,
     /// Effects.
     pub effects: Effects,
     /// When it becomes two.
@@ -221,6 +223,7 @@ pub(super) fn read(
         kinks,
         sections,
         rule,
+        rule_by_fidelity: row.rule.is_none(),
         effects,
         breaking,
         reel,

@@ -39,6 +39,9 @@ const ROUNDING: f64 = 1e-4;
 /// Largest force over EA.
 const LOAD: f64 = 1.0;
 
+/// Share of the extent of a path by which it may pass the straight way between two host times: forces that follow it are off by as much.
+const PASSED: f64 = 0.02;
+
 impl Scene {
     /// Returns warnings about what is probably not meant, as the scene is written.
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
@@ -54,6 +57,7 @@ impl Scene {
             warnings.extend(self.falling());
             warnings.extend(self.unfinished_ramps());
             warnings.extend(self.fast_spins());
+            warnings.extend(self.coarse_paths());
             warnings.extend(self.far_from_origin());
             warnings.extend(self.added_mass_in_air());
         }
@@ -219,6 +223,27 @@ impl Scene {
             let spin = if body.kind == BodyKind::Fixed { 0.0 } else { body.course.angular_velocity.norm() };
             let (body, turn_rad, dt_s) = (body.name.clone(), spin * self.dt, self.dt);
             (turn_rad > PI).then(|| Warning::FastSpin { body, turn_rad, dt_s, longest_s: 0.5 * PI / spin })
+        })
+    }
+
+    /// Returns a warning for each path that has rows between host times, where the body is not known to be.
+    fn coarse_paths(&self) -> impl Iterator<Item = Warning> {
+        self.bodies.iter().filter_map(|body| {
+            let rows = &body.course.path.positions;
+            let place = |time: f64| body.course.pose(time).0;
+            let first = rows.first()?.1;
+            let extent = rows.iter().map(|(_, at)| (at - first).norm()).fold(0.0, f64::max);
+            let passed = |time: f64| {
+                let begin = (time / self.dt).floor() * self.dt;
+                let [from, to] = [place(begin), place(begin + self.dt)];
+                (place(time) - from - (to - from) * ((time - begin) / self.dt)).norm()
+            };
+            let within = rows.iter().map(|(time, _)| *time).filter(|time| (0.0..self.duration).contains(time));
+            let lost_m = within.map(passed).fold(0.0, f64::max);
+            // a curve that passes a chord by so much passes the next shorter ones by the square of their length
+            let longest_s = self.dt * (0.5 * PASSED * extent / lost_m).sqrt();
+            let (body, dt_s) = (body.name.clone(), self.dt);
+            (lost_m > PASSED * extent).then_some(Warning::CoarsePath { body, lost_m, dt_s, longest_s })
         })
     }
 

@@ -27,6 +27,7 @@ impl Warning {
             | Warning::AddedMassInAir { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
+            | Warning::CoarsePath { .. }
             | Warning::ManyTurns { .. } => Level::Setup,
             Warning::OpenGap { .. }
             | Warning::Unsettled { .. }
@@ -76,6 +77,7 @@ impl Warning {
             | Warning::LightWater { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
+            | Warning::CoarsePath { .. }
             | Warning::ManyTurns { .. } => None,
         }
     }
@@ -116,6 +118,7 @@ impl Judged for Warning {
             | Warning::AddedMassInAir { .. }
             | Warning::FarFromOrigin { .. }
             | Warning::FastSpin { .. }
+            | Warning::CoarsePath { .. }
             | Warning::ManyTurns { .. } => return None,
         })
     }
@@ -162,6 +165,7 @@ impl Judged for Warning {
             Warning::AddedMassInAir { share, .. } => *share,
             Warning::FarFromOrigin { distance_m, .. } => *distance_m,
             Warning::FastSpin { turn_rad, .. } => *turn_rad,
+            Warning::CoarsePath { lost_m, .. } => *lost_m,
             Warning::NoConvergence { .. }
             | Warning::ForcesNotProven { .. }
             | Warning::ErrorNotReached { .. }

@@ -485,6 +485,21 @@ pub enum Warning {
         /// Length of a host step in s in which it makes a quarter of a turn.
         longest_s: f64,
     },
+    /// A kinematic body whose path turns between two host times.
+    #[error(
+        "body {body:?}: between two host times, {dt_s:.4} s apart, its path goes up to {lost_m:.1e} m off the straight way, and what is tied to it does not see that: take a \
+         `dt` of {longest_s:.1e} s or less"
+    )]
+    CoarsePath {
+        /// Name of the body.
+        body: String,
+        /// Largest distance in m of a row of the path from the straight way between two host times.
+        lost_m: f64,
+        /// Length of a host step in s.
+        dt_s: f64,
+        /// Length of a host step in s that would do for a smooth path.
+        longest_s: f64,
+    },
     /// What a cable says about its own mesh, steps, law and sizes.
     #[error("{}", Interface::Scene.text(.0))]
     #[serde(untagged)]

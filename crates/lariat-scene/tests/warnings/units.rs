@@ -240,3 +240,43 @@ fn fluids_and_curves_in_other_measures_are_told() {
     assert_eq!(kinds(0.012, 2.0, 1.025, 1.0), ["water"]);
     assert_eq!(kinds(0.012, 2.0, 1025.0, 100.0), ["curve"]);
 }
+
+/// A path whose rows lie between host times: told where the motion that they describe is off the straight way by more than 2 % of its
+/// extent, with a step that would do; and not where the rows are on host times, or lie on the way.
+///
+/// *Source.* The sagitta of a sine: `A (1 - cos(pi dt/T))`, of an extent of 2 A.
+#[test]
+fn a_path_that_the_host_steps_do_not_sample_is_told() {
+    let told = |dt: f64, period: f64, amplitude: f64| {
+        let rows = (0..=400).map(|k| 0.01 * f64::from(k) * period);
+        let rows =
+            rows.map(|t| format!("[{t:?}, 0.0, {:?}, 0.0]", amplitude * (std::f64::consts::TAU * t / period).sin()));
+        let rows = rows.collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "duration = {:?}\ndt = {dt:?}\n[[body]]\nname = \"vessel\"\nkind = \"kinematic\"\nshape = \"none\"\npath = [{rows}]\n[[cable]]\nname = \"line\"\npoints = [[0.0, \
+             0.0, 0.0], [9.0, 0.0, 0.0]]\nsection = {{ wire_rope = 0.02 }}\n[[attachment]]\ncable = \"line\"\nat = \"start\"\nbody = \"vessel\"\n",
+            3.0 * period
+        );
+        let scene = Scene::parse("scene.toml", &text, &[], Purpose::Run).unwrap();
+        let found = scene.warnings(Purpose::Run).into_iter().find_map(|warning| match warning {
+            Warning::CoarsePath { lost_m, longest_s, .. } => Some((lost_m, longest_s)),
+            _ => None,
+        });
+        let sagitta = amplitude * (1.0 - (std::f64::consts::PI * dt / period).cos());
+        if let Some((lost, longest)) = found {
+            assert!(lost < 1.05 * sagitta && longest < dt, "{dt}: {lost} of {sagitta}, {longest}");
+        }
+        (found.is_some(), sagitta / (2.0 * amplitude))
+    };
+    for (dt, period, amplitude) in [
+        (5.0, 10.0, 2.0),
+        (1.5, 10.0, 2.0),
+        (0.4, 10.0, 2.0),
+        (1.0 / 60.0, 0.1, 0.01),
+        (1.0 / 60.0, 0.5, 0.3),
+        (0.05, 8.0, 30.0),
+    ] {
+        let (told, share) = told(dt, period, amplitude);
+        assert!(told == (share > 0.02), "{dt} s of {period} s: {share}, told {told}");
+    }
+}

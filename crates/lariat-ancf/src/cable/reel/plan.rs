@@ -6,7 +6,8 @@
 //! The rate is linear within a host step of length h, and so is the rate that a motor is commanded;
 //! the bounds of its end are those of [`rates`]. A host step that is taken in several steps is
 //! planned once, when it begins; where the table has a row in it, each of its steps is planned by
-//! itself, so that the row counts from the next one on.
+//! itself. A step ends with the rate that the table gives from the time of the row on, so that it
+//! does not matter on which side of the end of a step rounding has a row.
 //!
 //! # Alternatives considered
 //!
@@ -84,18 +85,19 @@ impl Cable {
         let way = self.way(side, reel);
         let (rate, asked, a) = (winding.extent[1], reel.asked(self.time(), way), reel.acceleration);
         let plan = Plan { begin: self.time(), end: self.time() + h, rate: 0.0, stopped: false };
-        if reel.has_law() || rate == 0.0 && asked == 0.0 {
+        let followed = reel.follow(rate, plan.begin, plan.end);
+        if reel.has_law() || rate == 0.0 && asked == 0.0 && (way.is_some() || followed == 0.0) {
             return plan;
         }
         // the way to brake from r in steps is at most r^2/2a + a h^2/8, and h r passes before
-        let r = rate.abs().max(asked.abs());
+        let r = rate.abs().max(asked.abs()).max(followed.abs());
         let enough = r * (0.5 * r / a + h) + a * h * h;
         let left = [self.left(side, enough), self.left_of_stock(side, reel)];
         let [lowest, highest] = rates(a, rate, left, h);
         let limits = [rate - a * h, rate + a * h];
         let wanted = match way {
             Some(way) => towards(a, (rate, asked), (way, h), limits),
-            None => asked.clamp(limits[0], limits[1]),
+            None => followed,
         };
         let end = wanted.clamp(lowest, highest);
         Plan { rate: end, stopped: end != wanted, ..plan }
@@ -129,12 +131,17 @@ impl Cable {
         let before = winding.motor.or(winding.pull.map(held)).filter(|_| !in_island);
         let reach = reach.unwrap_or_else(|| self.reach(side, f64::INFINITY));
         let way = self.way(side, reel);
+        let commanded = before.map_or(rate, |before| before.commanded);
+        let asked = match way {
+            None if !in_island => reel.follow(commanded, self.time(), self.time() + host),
+            _ => reel.asked(self.time(), way),
+        };
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
             duration: h,
             host,
             wheel: if reel.feed == Feed::Sheave { 0.0 } else { reel.inertia },
-            asked: reel.asked(self.time(), way),
+            asked,
             acceleration: if in_island { STOP } else { reel.acceleration },
             stop: if in_island { STOP } else { RIGID },
             target: way.map(|way| length + way),

@@ -129,7 +129,8 @@ pub fn equilibrium(
             **cable = before;
         } else {
             cable.model.loads.clone_from(&before.model.loads);
-            if cable.system.forces.drive() {
+            // what does not drive it now, as a wind that is still to rise, does later
+            if before.system.forces.drive() {
                 let Cable { system, model, .. } = &mut **cable;
                 system.forces.release(model);
             }
