@@ -1,6 +1,7 @@
 //! What a cable withstands before it breaks.
 
 use crate::error::{Error, require};
+use crate::scales::cable::OVERSHOOT;
 use serde::{Deserialize, Serialize};
 
 /// What a cable withstands; without limits, the default, it does not break. A number converts into
@@ -151,6 +152,9 @@ pub(crate) struct LoadRecord {
     /// worst is.
     #[serde(default)]
     exceeded: f64,
+    /// Time in s at which the load came to the limit, so far as readings tell.
+    #[serde(default)]
+    crossed: f64,
 }
 
 /// A load above the limit that there may have been between readings below it.
@@ -219,12 +223,19 @@ impl LoadRecord {
                 self.unseen = Some(Unseen { time: t1, shares: [x1, reached], step });
             }
         }
-        self.recent = [self.recent[1], Some([load.time, load.share])];
+        let before = self.recent[1];
+        self.recent = [before, Some([load.time, load.share])];
         if load.share > 1.0 && is_recoil {
             return;
         }
         if load.share > 1.0 && self.exceeded().is_none() {
             self.exceeded = load.time;
+            // between two readings far apart the load is taken for linear
+            let passes = |[time, share]: &[f64; 2]| *time < load.time && *share <= 1.0 && load.share > OVERSHOOT;
+            let crossed = |[time, share]: [f64; 2]| {
+                time + (load.time - time) * (0.5 * (1.0 + OVERSHOOT) - share) / (load.share - share)
+            };
+            self.crossed = before.filter(passes).map_or(load.time, crossed);
         }
         if self.worst.is_none_or(|worst| load.share > worst.share) {
             self.worst = Some(Load { arc_length: load.arc_length - self.origin, ..load });
@@ -259,6 +270,12 @@ impl LoadRecord {
     /// Returns the time in s of the first reading above the limit since the largest was taken last.
     pub fn exceeded(&self) -> Option<f64> {
         self.worst.filter(|worst| worst.share > 1.0).map(|_| self.exceeded)
+    }
+
+    /// Returns the time in s at which the load came to the limit before that, which is between
+    /// readings where the first one above it is far above.
+    pub fn crossed(&self) -> Option<f64> {
+        self.exceeded().map(|_| self.crossed)
     }
 
     /// Returns the largest load since it was taken last.

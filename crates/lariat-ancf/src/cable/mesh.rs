@@ -128,7 +128,10 @@ impl Cable {
                         true => share * stiffness,
                         false => self.reading().pull(e, xi, &at).tension,
                     };
-                    largest = (share, tension, stiffness);
+                    // what a rope that does not push is stretched by at a kink pulls at nothing
+                    if tension > 0.0 {
+                        largest = (share, tension, stiffness);
+                    }
                 }
             }
         }

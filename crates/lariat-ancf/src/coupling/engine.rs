@@ -203,8 +203,9 @@ pub trait Coupling {
     /// included; `None` without a limit.
     fn peak_load(&self) -> Option<Load>;
 
-    /// Returns the time in s at the end of the integration step in which the load first exceeded
-    /// its limit since the cable was compared with it; `None` if it did not.
+    /// Returns the time in s at which the load first exceeded its limit since the cable was
+    /// compared with it: at the end of an integration step, or where it ends far above the limit,
+    /// by linear interpolation within; `None` if it did not.
     fn overloaded_at(&self) -> Option<f64>;
 
     /// Cuts the cable at a point as [`break_at`](Cable::break_at) does where both parts go on
@@ -420,7 +421,7 @@ impl Coupling for Cable {
     }
 
     fn overloaded_at(&self) -> Option<f64> {
-        self.snapshot.load.exceeded()
+        self.snapshot.load.crossed()
     }
 
     fn divide_at(&mut self, at: At) -> Result<(Cable, Break), Error> {

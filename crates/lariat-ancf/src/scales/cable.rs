@@ -108,3 +108,7 @@ pub(crate) const SPAN_ROUNDS: usize = 50;
 /// on within an element. Measured: 13 and more of a chain at 100 offsets, by where in the element
 /// it leaves (`tests/contact/statics.rs`).
 pub(crate) const TOUCHDOWN_ERROR: f64 = 12.0;
+
+/// Load over its limit above which it is asked when within an integration step it came there.
+/// Setting: by so much more than its strength a cable pulls before it breaks.
+pub(crate) const OVERSHOOT: f64 = 1.05;
