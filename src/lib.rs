@@ -12,7 +12,7 @@
 //! let mut rope = Cable::builder()
 //!     .points([Vector3::zeros(), Vector3::new(2.5, 0.0, 0.0)])  // m
 //!     .length(3.0)                                              // m, unstretched: it hangs slack
-//!     .section(Section::from_stiffness(1.6e6, 0.5, 0.14)?)      // 6 mm rope: EA N, EI N m^2, kg/m
+//!     .section(Section::from_stiffness(1.66e6, 0.016, 0.147)?)  // 6 mm wire rope: EA N, EI N m^2, kg/m
 //!     .elements(40)
 //!     .fix(At::Start)
 //!     .fix(At::End)

@@ -34,6 +34,13 @@ impl FixedClock {
     }
 }
 
+/// Time in s beyond which a frame is told of: in ms it is none.
+const LONGEST_FRAME: f64 = 2.0;
+
+/// A frame longer than that was told of.
+#[derive(Resource)]
+struct LongFrame;
+
 /// Advances by `elapsed` seconds: runs [`CableStep`] as often as host steps are due, and keeps the
 /// remaining time for the next call. Returns the number of host steps. Messages are kept for two
 /// calls. A time that is negative or not finite counts as zero. At most
@@ -59,6 +66,13 @@ pub fn advance(world: &mut World, elapsed: f64) -> u32 {
         steps += 1;
     }
     if steps == clock.max_steps {
+        // a spike is dropped without a word; what is longer than any frame is no frame
+        if elapsed > LONGEST_FRAME && !world.contains_resource::<LongFrame>() {
+            world.insert_resource(LongFrame);
+            log::warn!(
+                "a frame of {elapsed} s takes {steps} host steps of {step:.4} s, and the rest of it is dropped: times of frames are in s"
+            );
+        }
         clock.overstep = clock.overstep.min(step);
     }
     *world.resource_mut::<FixedClock>() = clock;

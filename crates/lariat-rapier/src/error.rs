@@ -71,7 +71,7 @@ pub enum Error {
     OtherWorld,
     /// An anchor or a second cable too far from the point of the cable.
     #[error(
-        "cable {cable:?}: {gap:.3e} m from what it is to be attached to, at most {limit:e} m are allowed (see Gap)"
+        "cable {cable:?}: {gap:.3e} m from what it is to be attached to, at most {limit:e} m are allowed (see Gap); anchors are in the axes of their body"
     )]
     GapTooLong {
         /// Name of the cable.

@@ -126,16 +126,18 @@ impl Catch {
 }
 
 /// Bodies of random mass and speed are caught by weak links in fidelity game, at host steps of 1/30 to 1/240 s, in which the steps of
-/// integration are the same: so are the break and the motion after it. A link that breaks at the end of the host step throws them
-/// back. No link shatters.
+/// integration are the same, but for those that are divided where the load comes to the strength: so are the break, and the motion
+/// after it as far as that division finds it. It is that of fine steps. A link that breaks at the end of the host step throws them
+/// back, and one that breaks at the end of the integration step is 0.23 of the speed off fine steps. No link shatters.
 ///
-/// *Source.* The same scene with host steps as long as those of integration.
+/// *Source.* The same scene with host steps as long as those of integration, and with 3840 of them per second.
 #[test]
 fn what_a_weak_link_does_does_not_depend_on_the_host_step() {
-    let (mut random, mut worst, mut late) = (Random(11), 0.0f64, 0.0f64);
+    let (mut random, mut worst, mut late, mut off) = (Random(11), 0.0f64, 0.0f64, 0.0f64);
     for _ in 0..20 {
         let catch = Catch::random(&mut random, To::Point, Fidelity::Game);
-        let fine = catch.run(240, 32);
+        let [fine, finest] = [240, 3840].map(|rate| catch.run(rate, 32));
+        off = off.max((fine.velocity - finest.velocity).abs() / catch.speed);
         for rate in [30, 60, 120] {
             let now = catch.run(rate, 32);
             assert_eq!((now.breaks, fine.breaks), (1, 1), "{catch:?} at {rate} Hz");
@@ -144,8 +146,8 @@ fn what_a_weak_link_does_does_not_depend_on_the_host_step() {
             late = late.max((catch.run(rate, 1).velocity - fine.velocity).abs() / catch.speed);
         }
     }
-    println!("{worst:.1e} of the speed, at the end of the host step {late:.2}");
-    assert!(worst < 1e-5 && late > 0.5, "{worst} {late}");
+    println!("{worst:.1e} of the speed, off fine steps {off:.1e}, at the end of the host step {late:.2}");
+    assert!(worst < 1e-2 && off < 0.03 && late > 0.5, "{worst} {off} {late}");
 }
 
 /// What a weak link passes on in all, to the body and the part of itself that stays on it, is at most its strength times the time

@@ -237,11 +237,16 @@ impl Cable {
         stiffness
     }
 
-    /// Returns the torque in N m of torsion on what holds a node.
+    /// Returns the torque in N m of torsion on what holds a node, with that of damping: the mean
+    /// one of the last step.
     pub(crate) fn torsion_moment(&self, node: usize) -> Vector3<f64> {
+        let step = self.snapshot.state.memory.differences.step;
+        let retardation = self.model.effects.torsion.as_ref().map_or(0.0, |torsion| torsion.damping);
+        let share = if step > 0.0 { retardation / step } else { 0.0 };
         let own = |(segment, twist): (Segment, SegmentTwist)| {
             let side = segment.nodes.iter().position(|held| *held == node)?;
-            Some([1.0, -1.0][side] * self.torque_in(&segment, &twist))
+            let damped = share * segment.stiffness * twist.change;
+            Some([1.0, -1.0][side] * (self.torque_in(&segment, &twist) + damped))
         };
         let torque: f64 = self.segments().into_iter().filter_map(own).sum();
         let slope = Vector3::from_column_slice(&self.positions()[6 * node + 3..6 * node + 6]);

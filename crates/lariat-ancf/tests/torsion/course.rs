@@ -140,3 +140,28 @@ fn a_folded_shape_is_told_with_torsion_as_without() {
     }
     assert!(folded > 0);
 }
+
+/// What holds the ends feels the torque of the twist and that of its damping, while the end turns, and that of the twist alone when it
+/// stands: at any step, damping and rate.
+///
+/// *Source.* M = GJ/L (Phi + tau dPhi/dt).
+#[test]
+fn supports_feel_the_torque_of_damping() {
+    for (rate, damping, steps) in [(0.3, 0.1, 100), (1.0, 0.02, 60), (-0.5, 0.5, 30)] {
+        let end = EndSpin::Motor { rate, from: 0.0, until: 0.5 };
+        let mut cable = rod(Torsion { end, damping, ..Torsion::new(STIFFNESS) }).build().unwrap();
+        let dt = 1.0 / f64::from(steps);
+        for step in 1..=steps {
+            cable.step(dt).unwrap();
+            let (time, turns) = (f64::from(step) * dt, std::f64::consts::TAU * rate);
+            if (time - 0.5).abs() < 1.5 * dt {
+                continue;
+            }
+            let [twist, speed] = if time < 0.5 { [turns * time, turns] } else { [turns * 0.5, 0.0] };
+            let expected = STIFFNESS * (twist + damping * speed);
+            let [start, last] = [0, 1].map(|k| cable.reactions().unwrap()[k].moment.x);
+            assert!((start + last).abs() < 1e-9, "{start} {last}");
+            assert!((last.abs() / expected.abs() - 1.0).abs() < 1e-6, "{time} s: {last} N m of {expected}");
+        }
+    }
+}

@@ -89,6 +89,24 @@ const MISTAKES: &[Mistake] = &[
         |world| hung(world, (steel(), Drag::air().flowing([130.0, 0.0, 0.0]))),
         &["faster than any wind", "were knots or km/h meant?"],
     ),
+    (
+        "a frame in ms",
+        |world| {
+            hung(world, steel());
+            lariat_bevy::advance(world, 16.67);
+        },
+        &["a frame of 16.67 s", "times of frames are in s"],
+    ),
+    (
+        "a body without a collider",
+        |world| {
+            let rope = world.spawn((steel(), Bending)).id();
+            world.spawn(pin(rope));
+            let load = world.spawn(lariat_bevy::Body::dynamic().at([0.0, -2.0, 0.0])).id();
+            world.spawn(Attachment::ball(rope, At::End).to(load));
+        },
+        &["has no mass", "give it a collider"],
+    ),
     // numbers that nothing has
     (
         "no mass",
@@ -195,7 +213,7 @@ const MISTAKES: &[Mistake] = &[
         |world| {
             tied(world, |rope, load| Attachment::ball(rope, At::End).to(load).at([0.0, -2.0, 0.0]).gap(Gap::Close));
         },
-        &["the anchor is in the axes of the body", "was a point of the world meant?"],
+        &["an anchor is in the axes of the body", "was the other meant?"],
     ),
     (
         "an entity without a body",

@@ -3,10 +3,10 @@
 You give Young's modulus, density and cross-section; Lariat computes motion, tension and bending moment.
 
 >>> import lariat_cables as lariat
->>> rope = lariat.Cable([[0, 0, 0], [2.5, 0, 0]], lariat.Section(1.6e6, 0.5, 0.14), length=3.0, elements=20, fix=["start", "end"])
+>>> rope = lariat.Cable([[0, 0, 0], [2.5, 0, 0]], lariat.Section(1.66e6, 0.016, 0.147), length=3.0, elements=20, fix=["start", "end"])
 >>> report = rope.equilibrium()
 >>> round(-rope.sample(1.5).position[1], 2)
-0.74
+0.73
 
 All numbers are in SI units. Arrays are NumPy's, of float64; they are copies, which a later step does not change.
 """

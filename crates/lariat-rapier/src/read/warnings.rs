@@ -113,8 +113,8 @@ pub enum Warning {
     },
     /// An anchor far from all colliders of its body.
     #[error(
-        "cable {name:?}: the anchor of an attachment is {distance:.3e} m from the origin of its body, whose colliders reach {radius:.3e} m: the anchor is in the axes of the body; \
-         was a point of the world meant?"
+        "cable {name:?}: the anchor of an attachment is {distance:.3e} m from the origin of its body, whose colliders reach {radius:.3e} m: an anchor is in the axes of the body, \
+         and the points of a rope are in those of the world; was the other meant?"
     )]
     FarAnchor {
         /// The attachment.

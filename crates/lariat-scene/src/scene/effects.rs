@@ -162,7 +162,7 @@ table! {
         fluid_density = ("that of `[water]`; required without one"), Kind::Number(POSITIVE), "kg/m^3";
         /// Normal coefficient on the diameter.
         normal = 1.2, Kind::Number(NOT_NEGATIVE);
-        /// Tangential coefficient on the diameter.
+        /// Tangential coefficient on the diameter: a coefficient that counts on the circumference, as `CdAx` of MoorDyn, is pi times as much here.
         tangential = 0.01, Kind::Number(NOT_NEGATIVE);
         /// Diameter, required for a cable without `section`. That of a chain is 1.8 times its bar: coefficients that count on the bar, as 2.4 of a
         /// studless chain, want the bar here.
@@ -202,7 +202,7 @@ table! {
     keys BUOYANCY for Buoyancy("[cable.buoyancy]") {
         /// Density of the fluid.
         fluid_density = ("that of `[water]`; required without one"), Kind::Number(POSITIVE), "kg/m^3";
-        /// Coefficient of added mass; 0 for none. It acts along all of the cable, above the level of `[water]`, too.
+        /// Coefficient of added mass; 0 for none, as a cable with a reel asks for. It acts along all of the cable, above the level of `[water]`, too.
         added_mass = 1.0, Kind::Number(NOT_NEGATIVE);
         /// Displaced area, required for a cable without `section`.
         area = ("that of the section"), Kind::Number(POSITIVE), "m^2";

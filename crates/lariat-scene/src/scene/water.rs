@@ -47,7 +47,7 @@ table! {
     struct BodyWaterTable("[body.water]") {
         /// Displaced volume.
         volume: Option<f64> = ("that of the shape; required without one"), Kind::Number(POSITIVE.single()), "m^3";
-        /// Drag coefficient times area: one number, or one for each axis of the body. Where it is not wholly wet, drag is less.
+        /// Drag coefficient times area: one number, or one for each axis of the body, through its centre of mass: it makes no moment. Of a body that floats it is the area at its draught; where it is less deep, drag is less.
         drag_area: Option<OneOrAxes> = ("0"), Kind::Either(&[Kind::Number(NOT_NEGATIVE.single()), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single())]), "m^2";
         /// Drag of rotation: the moment is half of it times the density times the angular velocity squared.
         rotational_drag: Option<[f64; 3]> = ("0"), Kind::Numbers(&["x", "y", "z"], NOT_NEGATIVE.single()), "m^5";
