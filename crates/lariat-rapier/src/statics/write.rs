@@ -27,6 +27,8 @@ pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: S
         body.set_angvel(Vector::ZERO, true);
     }
     multibody::follow(world, poses.iter().map(|(handle, _)| *handle));
+    // Rapier moves colliders in its next step only, and what is near is asked for before
+    world.bodies.propagate_modified_body_positions_to_colliders(&mut world.colliders);
     for (handle, _) in poses {
         let body = &world.bodies[handle];
         let end = island.members.iter().position(|m| *m == Member::Body(handle)).map(|m| &members[m]);

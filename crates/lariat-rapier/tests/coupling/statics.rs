@@ -290,6 +290,25 @@ fn limits_of_joints_hold_a_load_in_statics() {
     }
 }
 
+/// Colliders are where statics put their bodies, before Rapier steps: a rope beside a body that came to rest is not told as in it.
+///
+/// *Source.* The pose of the body.
+#[test]
+fn colliders_follow_their_bodies_in_statics() {
+    let mut world = PhysicsWorld::new();
+    let mut set = CableSet::new();
+    let rope =
+        set.insert(cable([0.0; 3], [1.5, 0.0, 0.0], steel()).elements(8).length(2.0).fix(At::Start).build().unwrap());
+    let load = add_cube(&mut world, 5.0, 0.1, [1.5, -0.1, 0.0]);
+    set.attach(&world, rope, At::End, load, Vector::new(0.0, 0.1, 0.0), AttachmentKind::Ball).unwrap();
+    set.equilibrium(&mut world).unwrap();
+    let body = &world.bodies[load];
+    assert!(body.translation().y < -1.9);
+    let collider = &world.colliders[body.colliders()[0]];
+    assert!((collider.position().translation - body.translation()).length() < 1e-6, "{:?}", collider.position());
+    assert_eq!(set.warnings(&world), []);
+}
+
 /// A wind that is zero when the lamp is put into equilibrium, and rises later, blows it aside as it does without statics; and one that
 /// falls to zero.
 ///
