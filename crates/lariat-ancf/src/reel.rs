@@ -157,9 +157,19 @@ impl Reel {
         way.map_or(rate, |way| if way.abs() > ARRIVED { rate.abs().copysign(way) } else { 0.0 })
     }
 
+    /// Returns the rate in m/s that is asked for at the end of a step in s, of a reel at `rate`
+    /// when that begins: of one that is to come to a length, which is `way` (m) ahead, and of one
+    /// that others drive, the rate of its beginning.
+    pub(crate) fn wanted(&self, rate: f64, [begin, end]: [f64; 2], way: Option<f64>) -> f64 {
+        match way {
+            None if !self.needs_island() => self.follow(rate, begin, end),
+            _ => self.asked(begin, way),
+        }
+    }
+
     /// Returns the rate in m/s to which one at a time in s comes until another by the table:
     /// towards each row from its time on, within the acceleration.
-    pub(crate) fn follow(&self, mut rate: f64, begin: f64, end: f64) -> f64 {
+    fn follow(&self, mut rate: f64, begin: f64, end: f64) -> f64 {
         let mut time = begin;
         while time < end {
             let next = self.rate.iter().map(|row| row[0]).find(|row| *row > time).map_or(end, |row| row.min(end));

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import os
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -266,3 +267,26 @@ def test_a_cable_has_the_gravity_of_a_model_of_mujoco() -> None:
             pair.step()
         assert np.array_equal(pair.exchange.coupling.cable.gravity, own)
         assert np.abs(data.xpos[model.body("b").id] - [0, 0, -2.05]).max() < 1e-3
+
+
+@pytest.mark.parametrize("mass", [1.0, 5.0, 50.0])
+def test_a_program_that_damps_makes_no_energy(mass: float) -> None:
+    """Semi-implicit Euler damps: a body that it lets go beside a level cable is not said to make energy, however little was exchanged."""
+    body = Body(mass, rope=lariat.Cable([[0, 0, 0], [2, 0, 0]], lariat.Section(EA, 0.01, 0.05), elements=10, fix="start", fidelity="game"))
+    position, velocity, dt = body.position, np.zeros(3), 2e-3
+
+    def move(force: np.ndarray, moment: np.ndarray) -> EndMotion:
+        after = velocity + dt * (GRAVITY + force[0] / mass)
+        return EndMotion([position + dt * after], None, [after])
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", errors.ResultWarning)
+        for _ in range(200):
+            done = body.exchange.step(dt, move)
+            position, velocity = np.array(done.motion.positions)[0], np.array(done.motion.velocities)[0]
+
+
+@pytest.mark.parametrize("wrong", [None, [2.0, 0.0, 0.0]])
+def test_what_is_no_motion_is_refused_by_its_type(wrong: object) -> None:
+    with pytest.raises(errors.InvalidValueError, match=f"move returns {type(wrong).__name__}"):
+        Body(5.0).exchange.step(2e-3, lambda force, moment: wrong)  # type: ignore[arg-type, return-value]

@@ -63,10 +63,12 @@ MISTAKES: list[tuple[str, Callable[[], Any], list[str]]] = [
     ("no number", lambda: rope(length=math.nan), ["length", "finite"]),
     ("no element", lambda: rope(elements=0), ["1 to"]),
     ("a breaking load of 0", lambda: rope().set_strength(0.0), ["breaking tension (N)", "> 0"]),
+    ("a load of nothing", lambda: rope().add_load("end"), ["a force, a moment, or both"]),
     ("two lengths", lambda: rope(length=2.1, sag=0.1), ["one of length, pretension and sag"]),
     # names
     ("an unknown rule", lambda: rope(rule="simpson"), ["simpson"]),
     ("an unknown rope", lambda: lariat.Section.rope("hemp", 0.01), ["hemp"]),
+    ("an effect by a wrong name", lambda: rope(effects={"darg": lariat.Damping(1e-3, 1e-3)}), ["'darg'", "'damping'"]),
     ("an unknown argument", lambda: rope(segments=10), ["segments"]),
     # places
     ("a point behind the end", lambda: rope().sample(2.5), ["2.5", "[0, 2]"]),

@@ -61,6 +61,14 @@ def test_points_reductions_and_series_are_those_of_runs(tmp_path: Path) -> None:
 def test_sweeps_refuse_what_they_cannot_reduce() -> None:
     with pytest.raises(lariat.errors.InvalidValueError):
         lariat.sweep(SCENE)
+    with pytest.raises(lariat.errors.InvalidValueError, match="at least one point"):
+        lariat.sweep(SCENE, points=[], progress=False)
+    with pytest.raises(lariat.errors.InvalidValueError, match="at least one point"):
+        lariat.sweep(SCENE, {"duration": []}, progress=False)
+    with pytest.raises(lariat.errors.InvalidValueError, match="a list of settings"):
+        lariat.sweep(SCENE, points={"duration": [0.05]}, progress=False)  # type: ignore[arg-type]
+    with pytest.raises(lariat.errors.InvalidValueError, match="'times' of reduce returns ndarray"):
+        lariat.sweep(SCENE, {"duration": [0.05]}, reduce={"times": lambda run: run.t}, progress=False)
     with pytest.raises(KeyError, match="there are"):
         lariat.sweep(SCENE, {"duration": [0.05]}, series=["nothing.x"], progress=False)
     with pytest.raises(ZeroDivisionError):

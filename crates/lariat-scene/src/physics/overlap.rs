@@ -37,17 +37,16 @@ impl Physics {
     /// Returns the warnings of [`inside`](Self::inside) about cables in equilibrium that contact should keep out, and that are
     /// deeper than an error of position that is told: their equilibrium is none.
     pub fn sunk(&mut self, scene: &Scene) -> Vec<Warning> {
-        let touches = |name: &str| {
-            let cable = self.cables.iter().map(|(_, cable)| cable).find(|cable| cable.name() == name)?;
+        let found = self.inside(scene);
+        let limit = |name: &str| {
+            let (_, cable) = self.cables.iter().find(|(_, cable)| cable.name() == name)?;
             cable.effects().contact.map(|_| (SUNK * cable.length()).max(cable.contact_radius()))
         };
-        let limits: Vec<Option<f64>> = scene.cables.iter().map(|cable| touches(&cable.name)).collect();
-        let limit = |name: &str| scene.cables.iter().position(|cable| cable.name == name).and_then(|c| limits[c]);
         let sunk = |warning: &Warning| match warning {
             Warning::StartsInside { cable, depth_m, .. } => limit(cable).is_some_and(|limit| *depth_m > limit),
             _ => false,
         };
-        self.inside(scene).into_iter().filter(sunk).collect()
+        found.into_iter().filter(sunk).collect()
     }
 
     /// Returns the name of the body that a cable knows as an obstacle by a key.

@@ -83,22 +83,19 @@ impl Cable {
     /// Returns the rate of a reel for a host step of length `h` (s).
     pub(super) fn plan(&self, side: Side, reel: &Reel, winding: &Winding, h: f64) -> Plan {
         let way = self.way(side, reel);
-        let (rate, asked, a) = (winding.extent[1], reel.asked(self.time(), way), reel.acceleration);
         let plan = Plan { begin: self.time(), end: self.time() + h, rate: 0.0, stopped: false };
-        let followed = reel.follow(rate, plan.begin, plan.end);
-        if reel.has_law() || rate == 0.0 && asked == 0.0 && (way.is_some() || followed == 0.0) {
+        let (rate, a) = (winding.extent[1], reel.acceleration);
+        let asked = reel.wanted(rate, [plan.begin, plan.end], way);
+        if reel.has_law() || rate == 0.0 && asked == 0.0 {
             return plan;
         }
         // the way to brake from r in steps is at most r^2/2a + a h^2/8, and h r passes before
-        let r = rate.abs().max(asked.abs()).max(followed.abs());
+        let r = rate.abs().max(asked.abs());
         let enough = r * (0.5 * r / a + h) + a * h * h;
         let left = [self.left(side, enough), self.left_of_stock(side, reel)];
         let [lowest, highest] = rates(a, rate, left, h);
         let limits = [rate - a * h, rate + a * h];
-        let wanted = match way {
-            Some(way) => towards(a, (rate, asked), (way, h), limits),
-            None => followed,
-        };
+        let wanted = way.map_or(asked, |way| towards(a, (rate, asked), (way, h), limits));
         let end = wanted.clamp(lowest, highest);
         Plan { rate: end, stopped: end != wanted, ..plan }
     }
@@ -132,10 +129,7 @@ impl Cable {
         let reach = reach.unwrap_or_else(|| self.reach(side, f64::INFINITY));
         let way = self.way(side, reel);
         let commanded = before.map_or(rate, |before| before.commanded);
-        let asked = match way {
-            None if !in_island => reel.follow(commanded, self.time(), self.time() + host),
-            _ => reel.asked(self.time(), way),
-        };
+        let asked = reel.wanted(commanded, [self.time(), self.time() + host], way);
         let motor = Motor {
             limits: [before.map_or(limit, |before| before.limit_before(limit)), limit],
             duration: h,
