@@ -257,7 +257,7 @@ pub(crate) mod step {
     /// lost 10 % at 3 rad/s.
     pub(crate) const MAX_LOSS: f64 = 5e-3;
 
-    /// Largest error in rad of the attitude at which a mechanism is predicted. Measured: random
+    /// Largest error in rad of the attitude at which a body is predicted. Measured: random
     /// booms follow their fine runs (tests, seeds/booms.rs); that other values were tried is not
     /// recorded.
     pub(crate) const MAX_TURN_ERROR: f64 = 0.01;

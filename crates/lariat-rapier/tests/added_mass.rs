@@ -292,9 +292,8 @@ fn a_body_on_a_cable_swings_and_heaves_with_the_mass_of_its_way() {
 }
 
 /// A body with 20 times its mass in added mass on a steel rope, given a blow: on its own, on a slider, and beside a wall that Rapier looks at in each step. It
-/// has no more energy than at the beginning, but for the one step in which a rope snaps taut, and goes no lower than its rope lets it. In that step the rope
-/// has some energy that all of the mass still has where something else may touch it, too (the force is felt late), and a body that nothing else touches lacks
-/// what the force changed Munk's moment by.
+/// has no more energy than at the beginning, and goes no lower than its rope lets it. Beside a wall it may have more for the one step in which the rope snaps
+/// taut: the rope has some energy that all of the mass still has where something else may touch it, too (the force is felt late).
 ///
 /// *Source.* The work-energy theorem: weight in water and rope have potentials, the rest takes.
 #[test]
@@ -333,7 +332,7 @@ fn a_large_added_mass_on_a_steel_rope_makes_no_energy() {
             for step in 0..600 {
                 tank.step();
                 let now = energy(&tank) / given;
-                most = most.max(if held == "slider" { now } else { now.min(before) });
+                most = most.max(if held == "wall" { now.min(before) } else { now });
                 before = now;
                 lowest = lowest.min(tank.place().y);
                 if step > 540 {

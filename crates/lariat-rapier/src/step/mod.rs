@@ -208,8 +208,8 @@ pub(crate) fn finish(stepper: &mut Stepper, contents: &mut Contents, world: &mut
 /// What the prediction of a Rapier step gave; all but the first is reverted, to be predicted anew.
 enum Predicted {
     Whole,
-    /// A mechanism turned so much, or so much passed an eye, that it is to be divided into equal
-    /// parts.
+    /// A body turned otherwise by so much, or so much passed an eye, that it is to be divided into
+    /// equal parts.
     Coarse(u32),
     /// A cable exceeded its limit at a share of it.
     Overloaded(f64),
@@ -243,8 +243,13 @@ fn predict_islands(
         reels::mark(contents);
         let Stepper { islands, predictions, finder, buffers, .. } = &mut *stepper;
         integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
-        let turn = predictions.iter().filter(|p| p.integrator.is_some() && p.error.is_none());
-        let turn = turn.map(|p| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
+        let stepped = islands.list.iter().zip(predictions.iter());
+        let stepped = stepped.filter(|(_, p)| p.integrator.is_some() && p.error.is_none());
+        let turn_error = |(island, p): (&Island, &Prediction)| {
+            let of_water = water::largest_turn_error(contents, island, p, step.h);
+            groups::largest_turn_error(p, step.h).max(of_water)
+        };
+        let turn = stepped.map(turn_error).fold(0.0, f64::max);
         let passed = predictions.iter().map(parts_for_reels).fold(1.0, f64::max);
         let parts = (turn / MAX_TURN_ERROR).sqrt().max(passed).ceil().min(f64::from(u32::MAX)) as u32;
         let parts = parts.min(settings.most_rapier_steps(f64::from(host.dt)) / host.steps).max(1);
@@ -258,7 +263,7 @@ fn predict_islands(
         if !met && parts == 1 && overload.is_none() {
             break step;
         }
-        // a mechanism turned otherwise, a reel ran off, a cable broke, or cables met that were not
+        // a body turned otherwise, a reel ran off, a cable broke, or cables met that were not
         // expected to: they are united, and the step begins anew
         for (island, prediction) in islands.list.iter().zip(predictions.iter()).filter(|(_, p)| !p.refused) {
             apply::revert(contents, world, island, prediction);

@@ -10,7 +10,9 @@
 //! without cables counts its own steps.
 
 use crate::contents::Contents;
+use crate::islands::Island;
 use crate::step::HostStep;
+use crate::step::prediction::Prediction;
 use crate::step::settings::Settings;
 use rapier::pipeline::PhysicsWorld;
 
@@ -36,6 +38,18 @@ pub(super) fn take_off(contents: &mut Contents, world: &mut PhysicsWorld, steppe
     if let Some(water) = &mut contents.water {
         water.take_off(world, stepped);
     }
+}
+
+/// Returns by how much (rad) the attitude of a member of an island halfway of a step of `h` (s) is
+/// at most another than that which Munk's moment would give it.
+pub(super) fn largest_turn_error(contents: &Contents, island: &Island, prediction: &Prediction, h: f64) -> f64 {
+    let Some(water) = &contents.water else { return 0.0 };
+    let members = island.members.iter().zip(prediction.start.iter().zip(&prediction.end));
+    let spun = members.filter_map(|(member, (start, end))| {
+        let owed = water.owed(member.body()?, &(end.velocity - start.velocity))?;
+        Some((start.world_inertia(&start.rotation).try_inverse()? * owed).norm())
+    });
+    0.25 * h * spun.fold(0.0, f64::max)
 }
 
 /// Ends a host step of `dt` (s).

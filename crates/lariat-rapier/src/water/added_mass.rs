@@ -25,8 +25,9 @@
 //! back: `M v - D` changes by h (F + J) exactly. Munk's moment is that of the momentum and the
 //! attitude in the middle of the step. A body in an island of cables, which nothing else touches,
 //! has R1 as carried inertia and k as force: then J moves all of M, D is none, and what J changed
-//! Munk's moment by, beyond what was expected, is made up for in the next step: its energy is off
-//! in the step in which a rope snaps taut.
+//! Munk's moment by, beyond what was expected, is made up for in the next step. Where a body would
+//! turn otherwise by that, as a rope snaps taut, the Rapier step is predicted anew, divided
+//! ([`substepping`](crate::step::substepping)).
 //!
 //! # Validity
 //!
@@ -263,16 +264,26 @@ impl FurtherStep {
         carried.then(|| (self.end, self.in_island - self.force))
     }
 
+    /// Returns the impulse of Munk's moment in N m s that was not expected, of a body in an island
+    /// whose velocity changes by `change` (m/s).
+    pub(super) fn owed(&self, change: &Vector3<f64>) -> Vector3<f64> {
+        (self.munk(&self.others(change)) - self.munk(&self.expected)) * self.h
+    }
+
+    /// Returns J in N of a body in an island, by the change of its velocity in m/s.
+    fn others(&self, change: &Vector3<f64>) -> Vector3<f64> {
+        (change * self.mass + self.end * change) / self.h - self.known - self.in_island
+    }
+
     /// Returns what is remembered of the step, by the changes of velocity (m/s) and spin (rad/s) in
     /// it and the attitude at its end.
     pub(super) fn ended(&self, [change, spun]: [&Vector3<f64>; 2], attitude: UnitQuaternion<f64>) -> Carry {
-        let FurtherStep { mass, h, end, known, force, in_island, .. } = self;
+        let FurtherStep { mass, h, end, known, force, .. } = self;
         let attitudes = [attitude, self.attitude];
         let last = spun / *h - self.spun;
         let spun = [last, if self.rests { last } else { self.spun_by_others[0] }];
         if self.carried {
-            let others = (change * *mass + end * change) / *h - known - in_island;
-            let owed = (self.munk(&others) - self.munk(&self.expected)) * *h;
+            let (others, owed) = (self.others(change), self.owed(change));
             return Carry { attitudes, others, debt: Some(Vector3::zeros()), owed, spun };
         }
         let others = change * (mass / h) - known - force;

@@ -95,6 +95,12 @@ impl BodiesInWater {
         self.members.iter_mut().find(|m| m.body == body)?.carry(carried)
     }
 
+    /// Returns the impulse of moments in N m s that the present step does not have, of a body in an
+    /// island whose velocity changes by `change` (m/s).
+    pub(crate) fn owed(&self, body: RigidBodyHandle, change: &Vector3<f64>) -> Option<Vector3<f64>> {
+        self.members.iter().find(|m| m.body == body)?.owed(change)
+    }
+
     /// Returns volume (m^3) and added mass (kg), as [`added_mass`](Self::added_mass), of a body.
     pub fn volume_and_added_mass(&self, body: RigidBodyHandle) -> Option<(f64, f64)> {
         self.members.iter().find(|m| m.body == body).map(|m| (m.volume(), m.carried()))

@@ -190,6 +190,11 @@ impl Member {
         self.acting.as_mut()?.further.as_mut()?.carry(carried)
     }
 
+    /// Returns [`FurtherStep::owed`] of a body in an island.
+    pub(super) fn owed(&self, change: &Vector3<f64>) -> Option<Vector3<f64>> {
+        self.acting.as_ref()?.further.as_ref().filter(|further| further.carried).map(|further| further.owed(change))
+    }
+
     /// Finds whether all of the body is in air over a step. Returns the mass in kg to add to it if
     /// that has changed, and its velocity (m/s) then: the water that it takes along has its
     /// momentum, and keeps that when it is left behind.
