@@ -12,10 +12,9 @@
 //! # Validity
 //! One Rapier step more of the whole world for each time at which cables break, up to
 //! [`Settings::max_rapier_steps`](crate::Settings::max_rapier_steps); beyond these, and where that
-//! setting fixes the number, a cable breaks at the end of the Rapier step. So does one that
-//! exceeds its limit in the last [`SHORTEST_REST`] of it: Rapier's steps do not become shorter
-//! than the shortest ones of integration. A load above the limit when a Rapier step begins, because
-//! a program or a contact changed it since the last, breaks the cable there.
+//! setting fixes the number, a cable breaks at the end of the Rapier step. So does one that exceeds
+//! its limit in the last [`SHORTEST_REST`] of it. A load above the limit when a Rapier step begins,
+//! because a program or a contact changed it since the last, breaks the cable there.
 //!
 //! # Alternatives considered
 //! The break at the end of the host step: a weak link throws back a body that should fly on. The
