@@ -125,8 +125,9 @@ pub(crate) const OF_MIDPOINT: f64 = 1.0 / 12.0;
 /// iteration leaves is then below the estimate.
 pub(crate) const FORCE_TOLERANCE_UNDER_CONTROL: f64 = 1e-3;
 
-/// Share of the impulses that may be unbalanced where velocities of a nonsmooth step are rescaled.
-/// Unknown: what is rescaled beyond it is no error of the iteration.
+/// Share of the impulses that the last iterate may leave unbalanced: of each body, of all of a
+/// smooth step, and of a nonsmooth one whose velocities are rescaled. Measured: with 1 in place of
+/// a tenth 4 of 200 ropes that a hook draws taut read up to 15 kN for 6.
 pub(crate) const LARGEST_IMBALANCE: f64 = 0.1;
 
 /// Share of the impulses of a step that may be unbalanced. Measured: the energy law alone lets

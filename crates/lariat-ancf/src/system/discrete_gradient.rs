@@ -8,6 +8,7 @@ use super::{Equations, System};
 use crate::effect::EffectWork;
 use crate::effect::acts::{ForceInput, PointForce, StepInput};
 use crate::integrate::discrete_gradient::sum_of_forces;
+use crate::scales::LEAST_HEIGHT;
 use crate::state::State;
 use crate::support::{SlopeSupport, Support};
 use crate::system::StepVectors;
@@ -229,6 +230,7 @@ impl Equations<'_> {
         let kinetic = 0.5 * system.mass_square(&state.v, product);
         balance.held += kinetic + loss.strain + system.scales.weight_energy;
         balance.weight = system.scales.weight_energy;
+        balance.of_gravity = balance.weight / LEAST_HEIGHT * *h;
         balance
     }
 

@@ -31,11 +31,14 @@ pub(crate) struct Balance {
     pub weight: f64,
     /// Sum over nodes and bodies of the impulse in N s that the residual leaves unbalanced.
     pub imbalance: f64,
-    /// What of that is on bodies.
+    /// The largest share of the impulses of a body that is left unbalanced: of inertia, loads, and
+    /// standard gravity.
     pub imbalance_of_bodies: f64,
     /// Sum of the impulses in N s that must balance: of inertia, of external forces, of supports
     /// and pins.
     pub impulse: f64,
+    /// What standard gravity gives the cables in N s: less than a share of it is no imbalance.
+    pub of_gravity: f64,
     /// Whether a term with corners in its law acts, or is about to: iterates may swing between both
     /// sides of a corner.
     pub nonsmooth: bool,
@@ -62,8 +65,9 @@ impl Balance {
         self.held += other.held;
         self.weight += other.weight;
         self.imbalance += other.imbalance;
-        self.imbalance_of_bodies += other.imbalance_of_bodies;
+        self.imbalance_of_bodies = self.imbalance_of_bodies.max(other.imbalance_of_bodies);
         self.impulse += other.impulse;
+        self.of_gravity += other.of_gravity;
         self.nonsmooth |= other.nonsmooth;
         self.entries.iter_mut().zip(&other.entries).for_each(|(own, other)| own.add(other));
     }

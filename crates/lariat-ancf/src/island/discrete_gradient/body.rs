@@ -333,9 +333,13 @@ impl BodyStep {
             sum_of_forces(row)
         };
         total.imbalance += imbalance;
-        total.imbalance_of_bodies += imbalance;
         let of_loads = self.compliance * stack([self.force, self.turning]) * self.h;
-        total.impulse += self.momentum_size(&self.change) + self.mass * split(&of_loads)[0].norm();
+        let impulse = self.momentum_size(&self.change) + self.mass * split(&of_loads)[0].norm();
+        total.impulse += impulse;
+        if self.mass > 0.0 {
+            let least = self.mass * STANDARD_GRAVITY.norm() * self.h;
+            total.imbalance_of_bodies = total.imbalance_of_bodies.max(imbalance / (impulse + least));
+        }
         let (second, start) = (self.second_difference(), self.velocity);
         total.numerical += 0.5 * self.leg.a * second.dot(&(self.matrix * second));
         let torque = self.torque + self.rotation * self.turning;
