@@ -3,7 +3,7 @@
 use super::common::{is_left_out_in_double, run};
 use lariat_rapier::lariat_ancf::{At, Cable, Contact, Damping, Fidelity, Section, Vector3};
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Warning};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Rope, Warning};
 
 /// A body on which a rope of this length is tied, its other end 2 m away at the same height; the
 /// rope's contact is given before or after.
@@ -183,4 +183,46 @@ fn a_crate_that_comes_down_on_its_rope_makes_no_energy() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A hook that moves at 0.5 m/s draws slack, kinked ropes of many lengths taut, 4 mm beyond, and stops: it reads at most two and a half times
+/// the force of that stretch, in host steps of 1/60 and 1/240 s, and what it reads beyond that force the next element has, too.
+///
+/// *Source.* Hooke's law; a stretch that is given at once swings to twice its force, and the rope swings up. A wave is longer than an element.
+/// Steps whose iteration was cut off read up to five times that force at the hook, beside an element with a tenth of it.
+#[test]
+fn a_hook_that_draws_a_rope_taut_reads_its_stretch() {
+    let (speed, beyond) = (0.5, 4e-3);
+    for (k, rate) in (0..60u32).flat_map(|k| [(k, 60u32), (k, 240)]) {
+        let slack = 0.2 + 0.0137 * f64::from(k);
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / rate as Real;
+        let hook = RigidBodyBuilder::kinematic_position_based().translation(Vector::new(0.0, 3.8, 0.0));
+        let hook = world.insert_body(hook);
+        let mut cables = CableSet::new();
+        let rope = Rope::steel(0.008).unstretched_length(3.0 + slack);
+        let rope = cables.add_rope(&world, (hook, [0.0, 3.8, 0.0]), [0.0, 0.8, 0.0], rope).unwrap();
+        let (from, ends) = (2 * rate, 2.0 + (slack + beyond) / speed);
+        let section = Section::wire_rope(0.008).unwrap();
+        let stretch = section.axial_stiffness * beyond / (3.0 + slack);
+        let (mut most, mut alone) = (0.0f64, 0.0f64);
+        for step in 1..=(f64::from(rate) * (ends + 0.5)) as u32 {
+            let moved = (speed * f64::from(step.max(from) - from) / f64::from(rate)).min(slack + beyond);
+            world.bodies[hook].set_next_kinematic_translation(Vector::new(0.0, (3.8 + moved) as Real, 0.0));
+            cables.step(&mut world).unwrap();
+            let force = cables.attachment(rope.start.unwrap()).unwrap().force().norm();
+            let cable = cables.get(rope.cable).unwrap();
+            let next = 1.5 * cable.length() / cable.elements().len() as f64;
+            most = most.max(force);
+            if force > stretch {
+                alone = alone.max(force / cable.sample(next).unwrap().tension.max(0.1 * stretch));
+            }
+        }
+        println!(
+            "1/{rate} s, slack {slack:.2} m: {:.2} of {stretch:.0} N, {alone:.2} of the next element",
+            most / stretch
+        );
+        assert!((1.0..2.5).contains(&(most / stretch)), "1/{rate} s, slack {slack:.2} m: {most:.0} of {stretch:.0} N");
+        assert!(alone < 2.0, "1/{rate} s, slack {slack:.2} m: {alone:.2}");
+    }
 }
