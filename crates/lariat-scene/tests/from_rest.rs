@@ -239,6 +239,63 @@ fn a_run_from_the_state_of_statics_starts_bit_for_bit() {
     }
 }
 
+/// So it is where the body rests on a plane, whose extent is infinite, on a box or on another body.
+#[test]
+fn a_run_starts_bit_for_bit_from_a_body_that_rests() {
+    let plane = "kind = \"fixed\"\nshape = { plane = [0.0, 1.0, 0.0] }\nposition = [0.0, -1.0, 0.0]\n";
+    let floor = "kind = \"fixed\"\nshape = { cuboid = [3.0, 0.5, 3.0] }\nposition = [0.0, -1.5, 0.0]\n";
+    let other = "shape = { cuboid = [0.3, 0.1, 0.3] }\nmass = 20.0\nposition = [0.0, -0.9, 0.0]\n";
+    let ground = |text: &str| format!("[[body]]\nname = \"ground\"\n{text}");
+    for (grounds, height) in
+        [(ground(plane), -0.9), (ground(floor), -0.9), (ground(plane) + "[[body]]\nname = \"other\"\n" + other, -0.7)]
+    {
+        let text = format!(
+            r#"
+            duration = 0.5
+            {grounds}
+            [[body]]
+            name = "load"
+            shape = {{ cuboid = [0.1, 0.1, 0.1] }}
+            mass = 10.0
+            position = [0.0, {height:?}, 0.0]
+            [[cable]]
+            name = "l0"
+            points = [[1.0, 1.0, 0.0], [0.0, {:?}, 0.0]]
+            length = 2.5
+            elements = 10
+            axial_stiffness = 200000.0
+            bending_stiffness = 0.05
+            mass_per_length = 0.1
+            [[attachment]]
+            cable = "l0"
+            at = "start"
+            body = "world"
+            [[attachment]]
+            cable = "l0"
+            at = "end"
+            body = "load"
+            anchor = [0.0, 0.1, 0.0]
+            [[probe]]
+            name = "all"
+            body = "load"
+            [[probe]]
+            name = "l0"
+            cable = "l0"
+            at = "50 %"
+            "#,
+            height + 0.1
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let [found, went_on, from] = ["found", "went_on", "from"].map(|name| folder.path().join(name));
+        run::statics(&parse(&text, Purpose::Static), &found, &mut Options::default()).unwrap();
+        let at_once = parse(&format!("initial = \"equilibrium\"\n{text}"), Purpose::Run);
+        run::run(&at_once, &went_on, &mut Options::default()).unwrap();
+        let mut options = Options { from: Some(State::read(&found).unwrap()), ..Options::default() };
+        run::run(&parse(&text, Purpose::Resume), &from, &mut options).unwrap();
+        assert_eq!(rows(&went_on), rows(&from), "{grounds}");
+    }
+}
+
 /// A load with a ramp acts in full in statics, and in the run from them; it begins at zero where the run finds its equilibrium itself.
 #[test]
 fn loads_with_a_ramp_act_in_full_from_a_state() {

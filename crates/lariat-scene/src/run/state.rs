@@ -27,6 +27,9 @@ pub struct State {
     body: String,
 }
 
+/// Name by which Rapier writes that.
+const RECYCLED: &str = "\"recycle_state\":";
+
 /// What the state belongs to.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Head {
@@ -60,7 +63,7 @@ impl State {
     pub fn of(world: &World) -> Result<Self, Error> {
         let kept = Kept { alone: &world.alone, physics: world.physics.as_deref() };
         let wrong = |error: serde_json::Error| Error::State { problem: error.to_string() };
-        let body = serde_json::to_string(&kept).map_err(wrong)?;
+        let body = without_infinite_extents(&serde_json::to_string(&kept).map_err(wrong)?);
         // JSON has no numbers that are not finite, which would be found only when the state is needed
         serde_json::from_str::<Read>(&body).map_err(wrong)?;
         let lariat = env!("CARGO_PKG_VERSION").to_string();
@@ -120,6 +123,26 @@ impl State {
         (world.alone, world.physics) = (alone, physics);
         Ok(())
     }
+}
+
+/// Leaves out by what Rapier tells whether a contact is still that of the step before, of contacts with a plane: its extent is
+/// infinite, so that Rapier finds them anew in any case, and JSON has no such number.
+fn without_infinite_extents(body: &str) -> String {
+    let (mut out, mut rest) = (String::with_capacity(body.len()), body);
+    while let Some((before, state)) = rest.split_once(RECYCLED) {
+        out += before;
+        out += RECYCLED;
+        let mut depth = 0usize;
+        let closes = |c: char| {
+            depth = if c == '{' { depth + 1 } else { depth - usize::from(c == '}') };
+            depth == 0
+        };
+        let end = state.find(closes).filter(|_| state.starts_with('{')).map_or(0, |end| end + 1);
+        let (state, after) = state.split_at(end);
+        out += if state.contains("\"max_extent\":null") { "null" } else { state };
+        rest = after;
+    }
+    out + rest
 }
 
 /// Returns the parts of a scene that its equilibrium depends on.
