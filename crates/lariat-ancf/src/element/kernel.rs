@@ -134,7 +134,7 @@ pub(crate) struct GramStep<'a, T> {
     /// 1/h in 1/s.
     pub rate: f64,
     /// Factor on the [stiffness of damping across the curvature](crate::effect::damping) in the
-    /// tangent: 1 where contacts are near, else 0.
+    /// tangent: 1 where contacts are near and in parts of a step, else 0.
     pub across: f64,
 }
 

@@ -117,7 +117,7 @@ impl Equations<'_> {
         let (level, forces) = (system.level, &mut system.forces);
         let (elements, effects) = (&forces.elements, forces.in_element.as_ref());
         let count = elements.count() as u64;
-        let near = !(b.contact.is_empty() && b.pair_impulses.is_empty());
+        let across = b.divided || !(b.contact.is_empty() && b.pair_impulses.is_empty());
         let StepVectors { h, leg, change, change_before, kept, linearised, rhs, .. } = b;
         let step = CoordinateStep {
             start: &state.q,
@@ -127,7 +127,7 @@ impl Equations<'_> {
             linearised,
             h: *h,
             leg: *leg,
-            near,
+            across,
         };
         rhs.fill(0.0);
         if elements.bends() {

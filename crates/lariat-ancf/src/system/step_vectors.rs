@@ -22,6 +22,8 @@ pub(crate) struct StepVectors {
     pub change_before: Vec<f64>,
     /// Share of it that counts.
     pub kept: f64,
+    /// Whether it is a part of a step that was divided.
+    pub divided: bool,
     /// Change of velocities D v of the present iterate.
     pub velocity_change: Vec<f64>,
     /// Change of coordinates D q of the present iterate.

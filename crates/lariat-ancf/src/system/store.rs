@@ -35,7 +35,7 @@ impl System {
             linearised: &[],
             h: 1.0,
             leg: OneLeg::new(differences.dissipation),
-            near: false,
+            across: false,
         };
         let elastic = self.forces.elements.add_discrete_gradient(self.level, None, step, buffer).numerical;
         elastic + 0.5 * differences.dissipation * self.mass_square(&differences.velocity, buffer)

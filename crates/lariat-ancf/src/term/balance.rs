@@ -22,8 +22,8 @@ pub(crate) struct Balance {
     pub numerical: f64,
     /// Energy taken from velocities.
     pub rescaled: f64,
-    /// Energy that contacts did not take, as the step is not solved.
-    pub hidden: f64,
+    /// Energy that contacts, and the damping of elements, did not take, as the step is not solved.
+    pub hidden: [f64; 2],
     /// Kinetic and strain energy and that of contacts at the beginning, and the weight times 1 mm;
     /// bending by rule T1, whose forms the method's own dissipation has.
     pub held: f64,
@@ -61,7 +61,7 @@ impl Balance {
         self.residual += other.residual;
         self.numerical += other.numerical;
         self.rescaled += other.rescaled;
-        self.hidden += other.hidden;
+        (0..2).for_each(|k| self.hidden[k] += other.hidden[k]);
         self.held += other.held;
         self.weight += other.weight;
         self.imbalance += other.imbalance;
@@ -93,13 +93,15 @@ impl Balance {
         self.residual - self.losses() - self.rescaled
     }
 
-    /// Takes from the losses of contacts what the residual of a step that is not solved hides of
-    /// them: the energy that they did not take.
+    /// Takes from the losses of contacts and of elements what the residual of a step that is not
+    /// solved hides of them: the energy that they did not take.
     pub fn take_hidden(&mut self) {
-        let hidden = (self.residual - self.rescaled).clamp(0.0, self.of(Account::Contacts).loss.max(0.0));
-        self.residual -= hidden;
-        self.to(Account::Contacts).loss -= hidden;
-        self.hidden += hidden;
+        for (account, k) in [(Account::Contacts, 0), (Account::Elements, 1)] {
+            let hidden = (self.residual - self.rescaled).clamp(0.0, self.of(account).loss.max(0.0));
+            self.residual -= hidden;
+            self.to(account).loss -= hidden;
+            self.hidden[k] += hidden;
+        }
     }
 
     /// Returns the energy that is to be taken from velocities: what the step makes, and where all

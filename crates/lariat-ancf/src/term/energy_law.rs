@@ -31,8 +31,8 @@ pub struct EnergyLaw {
     pub bodies: f64,
     /// Energy that contacts lost: friction and impact. Never falls.
     pub contacts: f64,
-    /// Energy that contacts would have lost by their laws beside that, in steps that were
-    /// [not solved](crate::Diagnostics::unsolved_steps). Never falls.
+    /// Energy that contacts and damping would have lost by their laws beside that, in steps that
+    /// were [not solved](crate::Diagnostics::unsolved_steps). Never falls.
     pub unsolved: f64,
     /// Energy that the friction of sheaves took. Never falls.
     pub sheaves: f64,
@@ -71,7 +71,7 @@ impl EnergyLaw {
         self.loads += loads.work;
         self.bodies += loads.aside;
         self.contacts += contacts.loss + contacts.aside;
-        self.unsolved += step.hidden;
+        self.unsolved += step.hidden[0] + step.hidden[1];
         self.sheaves += reels.aside;
         self.obstacles += contacts.work;
         self.residual += step.residual;

@@ -398,15 +398,15 @@ pub enum Warning {
     },
     /// Steps were accepted that are not solved.
     #[error(
-        "cable {cable:?}: in {steps} steps of it, and of what moves with it, the iteration did not come to its end, however short they were: forces of contacts were not those of \
-         their laws there, and took {hidden_j:.1e} J less than these say; no energy is made; try shorter host steps, more elements, or contact that is less stiff"
+        "cable {cable:?}: in {steps} steps of it, and of what moves with it, the iteration did not come to its end, however short they were: forces of contacts and damping were not \
+         those of their laws there, and took {hidden_j:.1e} J less than these say; no energy is made; try shorter host steps, more elements, or contact that is less stiff"
     )]
     UnsolvedSteps {
         /// Name of the cable.
         cable: String,
         /// Number of steps.
         steps: u64,
-        /// Energy in J that contacts did not take.
+        /// Energy in J that contacts and damping did not take.
         hidden_j: f64,
     },
     /// A limit to the work cut steps short.

@@ -22,6 +22,7 @@ impl StepTerm<IslandStep<'_, '_>> for Cables {
         for cable in island.cables.iter_mut() {
             let CableStep { equations, state, buffers } = cable.step_parts();
             buffers.recall(state, step.h, step.leg);
+            buffers.divided = step.divided;
             equations.prescribe_change(state, buffers);
         }
     }

@@ -7,6 +7,19 @@ use crate::integrate::discrete_gradient::{DiscreteGradientSystem, Event, Pace};
 use crate::system::CableStep;
 use crate::term::{Balance, Settled, Stage, StepStart, StepTerm, Verdict};
 
+impl IslandStep<'_, '_> {
+    /// Takes from the work of damping what a step that is not solved hides of it (J): of each cable
+    /// the same share.
+    fn take_from_damping(&mut self, hidden: f64) {
+        let works = || self.cables.iter().map(|cable| cable.system.meter.work_of_step.damping.min(0.0));
+        let all = -works().sum::<f64>();
+        if hidden > 0.0 && all > 0.0 {
+            let left = 1.0 - (hidden / all).min(1.0);
+            self.cables.iter_mut().for_each(|cable| cable.system.meter.work_of_step.damping *= left);
+        }
+    }
+}
+
 impl DiscreteGradientSystem for IslandStep<'_, '_> {
     fn time(&self) -> f64 {
         self.cables[0].time()
@@ -107,6 +120,7 @@ impl DiscreteGradientSystem for IslandStep<'_, '_> {
     fn accept(&mut self, balance: Balance) {
         self.buffers.unsteady = self.has_impact();
         let shortened = self.energy_shortened();
+        self.take_from_damping(balance.hidden[1]);
         Terms::accept(self);
         let balance = self.restore_momenta(balance);
         // the law is that of the whole: the first cable keeps it

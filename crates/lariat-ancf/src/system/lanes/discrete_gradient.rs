@@ -50,8 +50,8 @@ pub(crate) struct CoordinateStep<'a> {
     pub h: f64,
     /// Its formula.
     pub leg: OneLeg,
-    /// Whether contacts are near.
-    pub near: bool,
+    /// Whether the tangent has what damping resists across the curvature.
+    pub across: bool,
 }
 
 /// What the elements of a cable lose in a step, in J.
@@ -227,7 +227,7 @@ impl Elements {
             }
             if let Some(effects) = effects {
                 let at = self.gram_step(stiffness, &s, step.h);
-                let at = GramStep { across: if step.near { 1.0 } else { 0.0 }, ..at };
+                let at = GramStep { across: if step.across { 1.0 } else { 0.0 }, ..at };
                 effects.add_step_tangent(&at, &group, &mut tangent);
             }
             if moving {
