@@ -257,7 +257,11 @@ pub(crate) mod step {
     /// lost 10 % at 3 rad/s.
     pub(crate) const MAX_LOSS: f64 = 5e-3;
 
-    /// Largest error in rad of the attitude at which a body is predicted. Measured: random
+    /// Share of the energy of a body with added mass by axes that what Munk's moment lacks in a
+    /// step may have. Setting: that which a run may make.
+    pub(crate) const MAX_OWED: f64 = 0.01;
+
+    /// Largest error in rad of the attitude at which a mechanism is predicted. Measured: random
     /// booms follow their fine runs (tests, seeds/booms.rs); that other values were tried is not
     /// recorded.
     pub(crate) const MAX_TURN_ERROR: f64 = 0.01;

@@ -33,10 +33,10 @@
 //! taken from the first: `D w <= 4 w` then, so at least a part stays, and the matrix is never less
 //! definite. Where an element straightens, m < 0, the second makes it indefinite, a strut that
 //! buckles sideways: it is left out, and the iteration is a modified one. The force is the same.
-//! The second is taken near contacts, and where a step had to be divided, alone: it also resists rotation of the curvature, which costs
-//! nothing, and elsewhere a step is accepted with what one iteration leaves: damped ropes on rotors
-//! of 0.86 rad per step pull 1.1 % too much with it and 0.25 % without (`moving_ends.rs` of
-//! lariat-rapier).
+//! The second is taken near contacts, and where a step had to be divided, alone: it also resists
+//! rotation of the curvature, which costs nothing, and elsewhere a step is accepted with what one
+//! iteration leaves: damped ropes on rotors of 0.86 rad per step pull 1.1 % too much with it and
+//! 0.25 % without (`moving_ends.rs` of lariat-rapier).
 //!
 //! # Validity
 //!

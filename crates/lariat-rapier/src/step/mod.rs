@@ -243,15 +243,12 @@ fn predict_islands(
         reels::mark(contents);
         let Stepper { islands, predictions, finder, buffers, .. } = &mut *stepper;
         integrate::integrate(contents, &islands.list, predictions, buffers, step.h);
-        let stepped = islands.list.iter().zip(predictions.iter());
-        let stepped = stepped.filter(|(_, p)| p.integrator.is_some() && p.error.is_none());
-        let turn_error = |(island, p): (&Island, &Prediction)| {
-            let of_water = water::largest_turn_error(contents, island, p, step.h);
-            groups::largest_turn_error(p, step.h).max(of_water)
-        };
-        let turn = stepped.map(turn_error).fold(0.0, f64::max);
+        let stepped =
+            || islands.list.iter().zip(predictions.iter()).filter(|(_, p)| p.integrator.is_some() && p.error.is_none());
+        let turn = stepped().map(|(_, p)| groups::largest_turn_error(p, step.h)).fold(0.0, f64::max);
+        let of_water = stepped().map(|(island, p)| water::parts(contents, island, p)).fold(1.0, f64::max);
         let passed = predictions.iter().map(parts_for_reels).fold(1.0, f64::max);
-        let parts = (turn / MAX_TURN_ERROR).sqrt().max(passed).ceil().min(f64::from(u32::MAX)) as u32;
+        let parts = (turn / MAX_TURN_ERROR).sqrt().max(passed).max(of_water).ceil().min(f64::from(u32::MAX)) as u32;
         let parts = parts.min(settings.most_rapier_steps(f64::from(host.dt)) / host.steps).max(1);
         // an island that cannot step has no motion, and no state from before it
         let before = |island: usize, cable: usize| {

@@ -7,7 +7,7 @@
 //! h |w|/(2 N) <= 1.2              in N solver iterations
 //! h |w|/(2 N) <= 0.005            of a body on impulse joints
 //! h |w1 - w0|/4 <= 0.01           of a body on joints, from one end of a Rapier step to the other
-//! h |I^-1 p|/4 <= 0.01            of a body with added mass by axes, p what Munk's moment lacks
+//! |p.w| + p.I^-1 p/2 <= 0.01 E    of a body with added mass by axes, p what Munk's moment lacks
 //! h v <= l/2                      of a body that collides at v, l the elements at its pins
 //! h v <= r                        of one whose cables have contact, or that cables press on, r their radius
 //! h v <= l/3                      of a reel at the rate v, l the element at its eye
@@ -40,10 +40,10 @@
 //! *Turns.* A mechanism is predicted as it is halfway of a Rapier step, at the velocities with
 //! which that begins. If they change in it, by a line that snaps taut, bodies on joints have turned
 //! otherwise by the left side of the fourth line, by which share the directions in which they can
-//! move are wrong. Then the step is predicted anew, divided. So it is where the moment that turns a
-//! body across its way in water changes with that way. Impulse joints turn a velocity by
-//! removing what they do not allow of it, in each substep the share (w h/N)^2/2, which is the left
-//! side of the third line per radian.
+//! move are wrong. Then the step is predicted anew, divided. So it is where a rope changes the
+//! moment that turns a body across its way in water: what that lacks makes energy. Impulse joints
+//! turn a velocity by removing what they do not allow of it, in each substep the share (w h/N)^2/2,
+//! which is the left side of the third line per radian.
 //!
 //! *Long host steps.* What is estimated of a body on joints from step to step, and the directions
 //! in which it can move, are of the length of a Rapier step; one of 1.9 s, 32 in a minute, made

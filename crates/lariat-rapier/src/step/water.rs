@@ -11,9 +11,12 @@
 
 use crate::contents::Contents;
 use crate::islands::Island;
+use crate::scales::step::MAX_OWED;
 use crate::step::HostStep;
 use crate::step::prediction::Prediction;
 use crate::step::settings::Settings;
+use ::nalgebra::Vector3;
+use lariat_ancf::island::RigidBody;
 use rapier::pipeline::PhysicsWorld;
 
 /// Begins a host step, or statics: the water has the time of the cables.
@@ -40,16 +43,25 @@ pub(super) fn take_off(contents: &mut Contents, world: &mut PhysicsWorld, steppe
     }
 }
 
-/// Returns by how much (rad) the attitude of a member of an island halfway of a step of `h` (s) is
-/// at most another than that which Munk's moment would give it.
-pub(super) fn largest_turn_error(contents: &Contents, island: &Island, prediction: &Prediction, h: f64) -> f64 {
-    let Some(water) = &contents.water else { return 0.0 };
+/// Returns into how many parts a step is to be divided so that what Munk's moment lacks in it, of
+/// the bodies of an island, has no more of their energy than a [share](MAX_OWED).
+pub(super) fn parts(contents: &Contents, island: &Island, prediction: &Prediction) -> f64 {
+    let Some(water) = &contents.water else { return 1.0 };
     let members = island.members.iter().zip(prediction.start.iter().zip(&prediction.end));
-    let spun = members.filter_map(|(member, (start, end))| {
+    let shares = members.filter_map(|(member, (start, end))| {
         let owed = water.owed(member.body()?, &(end.velocity - start.velocity))?;
-        Some((start.world_inertia(&start.rotation).try_inverse()? * owed).norm())
+        let inertia = end.world_inertia(&end.rotation);
+        let spun = inertia.try_inverse()? * owed;
+        let kinetic = |body: &RigidBody| {
+            let momentum = body.velocity * body.mass
+                + body.carried.map_or(Vector3::zeros(), |r| r.fixed_view::<3, 3>(0, 0) * body.velocity);
+            0.5 * (body.velocity.dot(&momentum) + body.angular_velocity.dot(&(inertia * body.angular_velocity)))
+        };
+        let all = kinetic(start).max(kinetic(end));
+        let energy = owed.dot(&end.angular_velocity).abs() + 0.5 * owed.dot(&spun);
+        (all > 0.0).then_some(energy / all)
     });
-    0.25 * h * spun.fold(0.0, f64::max)
+    shares.fold(0.0, f64::max) / MAX_OWED
 }
 
 /// Ends a host step of `dt` (s).

@@ -25,8 +25,8 @@
 //! back: `M v - D` changes by h (F + J) exactly. Munk's moment is that of the momentum and the
 //! attitude in the middle of the step. A body in an island of cables, which nothing else touches,
 //! has R1 as carried inertia and k as force: then J moves all of M, D is none, and what J changed
-//! Munk's moment by, beyond what was expected, is made up for in the next step. Where a body would
-//! turn otherwise by that, as a rope snaps taut, the Rapier step is predicted anew, divided
+//! Munk's moment by, beyond what was expected, is made up for in the next step. Where that
+//! has a hundredth of its energy, as a rope snaps taut, the Rapier step is predicted anew, divided
 //! ([`substepping`](crate::step::substepping)).
 //!
 //! # Validity

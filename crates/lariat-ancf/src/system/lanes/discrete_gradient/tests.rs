@@ -94,7 +94,7 @@ fn store(system: &System, q: &[f64], change: &[f64]) -> f64 {
         linearised: &[],
         h: 1.0,
         leg: OneLeg::default(),
-        near: false,
+        across: false,
     };
     system.forces.elements.add_discrete_gradient(system.level, None, step, &mut unused).numerical
 }
@@ -127,7 +127,7 @@ fn the_work_of_the_force_is_the_change_of_energy_and_the_losses() {
                         linearised: &[],
                         h,
                         leg: OneLeg::default(),
-                        near: false,
+                        across: false,
                     };
                     let mut force = vec![0.0; n];
                     let loss = system.forces.elements.add_discrete_gradient(
@@ -178,7 +178,7 @@ fn the_force_has_no_resultant_and_no_moment_about_the_mean_configuration() {
             linearised: &[],
             h: 1.0,
             leg: OneLeg::default(),
-            near: false,
+            across: false,
         };
         let mut force = vec![0.0; n];
         system.forces.elements.add_discrete_gradient(system.level, None, step, &mut force);
@@ -232,7 +232,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
                     linearised: &[],
                     h,
                     leg: OneLeg::default(),
-                    near: false,
+                    across: false,
                 };
                 let mut out = vec![0.0; n];
                 system.forces.elements.add_discrete_gradient(
@@ -260,7 +260,7 @@ fn the_tangent_at_rest_is_the_derivative_of_the_force() {
                 linearised: &[],
                 h,
                 leg: OneLeg::default(),
-                near: false,
+                across: false,
             };
             let mut out = vec![0.0; n];
             system.step.matrix.resize(n / 6);
@@ -325,7 +325,7 @@ fn the_step_matrix_of_t1_and_of_no_bending_is_positive_definite() {
                         linearised: &[],
                         h,
                         leg: OneLeg::default(),
-                        near: false,
+                        across: false,
                     };
                     let mut out = vec![0.0; n];
                     system.step.matrix.resize(n / 6);
