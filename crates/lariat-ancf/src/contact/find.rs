@@ -129,8 +129,8 @@ impl ContactStep {
             let y = pair.step.start.own(&point.start);
             let nearest = pair.obstacle.surface.nearest(&y);
             point.distance = nearest.distance;
-            let index = find_from(pair.motion.memory, self.next, point.key);
-            self.next = index.map_or(self.next, |i| i + 1);
+            let index = find_from(pair.motion.memory, self.next as usize, point.key);
+            self.next = index.map_or(self.next, |i| i as u32 + 1);
             let memory = index.map(|i| &pair.motion.memory[i]);
             if let Some(kept) = memory.filter(|memory| is_behind(&memory.patch, &y, &nearest)) {
                 point.patch = kept.patch;

@@ -35,7 +35,7 @@ pub(crate) struct ContactStep {
     pub(super) recalled: Vec<bool>,
     /// Where the contact of the next sample is in the memory, if it is that of the sample after the
     /// last one found.
-    pub(super) next: usize,
+    pub(super) next: u32,
     /// Number of tests of whether elements are near obstacles and their features.
     pub(super) tests: u64,
     /// Length of the step in s.

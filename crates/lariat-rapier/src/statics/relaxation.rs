@@ -27,6 +27,7 @@ use super::report::Relaxed;
 use super::solve::BodyForce;
 use crate::body::is_integrated;
 use crate::body::ledger::is_ledger;
+use crate::contact;
 use crate::contact::broad::Finder;
 use crate::contents::Contents;
 use crate::convert::{to_vector, vector};
@@ -83,18 +84,20 @@ pub(super) fn has_more_contact(contents: &Contents) -> bool {
 }
 
 /// Returns the largest way in m of a point in a quarter of a second from rest, if it is more than
-/// that of what stands; `None`, too, if something changes with time.
+/// that of what stands, and cables touch what statics do not compute on it; `None`, too, if
+/// something changes with time.
 pub(super) fn moves(contents: &Contents, world: &PhysicsWorld, forces: &[BodyForce]) -> Option<f64> {
     let mut relaxation = Relaxation::new(contents, world, &[])?;
-    let (from, mut way) = (relaxation.places(), 0.0f64);
+    let (from, mut way, mut touches) = (relaxation.places(), 0.0f64, relaxation.touches_more());
     for _ in 0..STILL_STEPS {
         if !relaxation.is_steady() {
             return None;
         }
         relaxation.step(forces).ok()?;
         way = way.max(largest_way(&from, &relaxation.places()));
+        touches |= relaxation.touches_more();
     }
-    (way > relaxation.limit()).then_some(way)
+    (touches && way > relaxation.limit()).then_some(way)
 }
 
 impl Relaxation {
@@ -122,6 +125,21 @@ impl Relaxation {
         }
         world.integration_parameters.dt = RELAXATION_STEP as Real;
         Some(Relaxation { contents, world, stepper: Stepper::default(), own })
+    }
+
+    /// Returns whether a cable touches what statics do not compute: itself, another one, or a body
+    /// that cables move.
+    fn touches_more(&self) -> bool {
+        let moved = |key: u64| {
+            let body = self.world.colliders.get(contact::collider(key)).and_then(|collider| collider.parent());
+            body.is_some_and(|body| {
+                is_integrated(&self.world, body) && self.contents.attachments.values().any(|a| a.body == body)
+            })
+        };
+        self.contents.cables.iter().any(|(_, slot)| {
+            slot.cable.cable_contacts().any(|touch| touch.normal_force > 0.0)
+                || slot.cable.contacts().any(|touch| moved(touch.obstacle))
+        })
     }
 
     /// Returns whether nothing that acts or holds changes with time.
