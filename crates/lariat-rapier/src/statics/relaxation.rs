@@ -33,7 +33,7 @@ use crate::contents::Contents;
 use crate::convert::{to_vector, vector};
 use crate::error::Error;
 use crate::handle::CableHandle;
-use crate::scales::statics::{RELAXATION_STEP, RELAXATION_STEPS, STILL, STILL_STEPS, WINDOWS};
+use crate::scales::statics::{RELAXATION_STEP, RELAXATION_STEPS, STILL, STILL_STEPS, UNTOUCHED, WINDOWS};
 use crate::step::settings::Settings;
 use crate::step::{self, Stepper};
 use ::nalgebra::Vector3;
@@ -84,8 +84,8 @@ pub(super) fn has_more_contact(contents: &Contents) -> bool {
 }
 
 /// Returns the largest way in m of a point in a quarter of a second from rest, if it is more than
-/// that of what stands, and cables touch what statics do not compute on it; `None`, too, if
-/// something changes with time.
+/// that of what stands, [`UNTOUCHED`] times as much where cables touch nothing that statics do not
+/// compute; `None`, too, if something changes with time.
 pub(super) fn moves(contents: &Contents, world: &PhysicsWorld, forces: &[BodyForce]) -> Option<f64> {
     let mut relaxation = Relaxation::new(contents, world, &[])?;
     let (from, mut way, mut touches) = (relaxation.places(), 0.0f64, relaxation.touches_more());
@@ -97,7 +97,8 @@ pub(super) fn moves(contents: &Contents, world: &PhysicsWorld, forces: &[BodyFor
         way = way.max(largest_way(&from, &relaxation.places()));
         touches |= relaxation.touches_more();
     }
-    (touches && way > relaxation.limit()).then_some(way)
+    let limit = relaxation.limit() * if touches { 1.0 } else { UNTOUCHED };
+    (way > limit).then_some(way)
 }
 
 impl Relaxation {
