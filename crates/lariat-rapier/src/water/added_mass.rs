@@ -27,7 +27,7 @@
 //! has R1 as carried inertia and k as force: then J moves all of M, D is none, and what J changed
 //! Munk's moment by, beyond what was expected, is made up for in the next step. Where that
 //! has a hundredth of its energy, as a rope snaps taut, the Rapier step is predicted anew, divided
-//! ([`substepping`](crate::step::substepping)).
+//! (`step/substepping.rs`).
 //!
 //! # Validity
 //!
