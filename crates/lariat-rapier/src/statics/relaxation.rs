@@ -133,9 +133,7 @@ impl Relaxation {
     fn touches_more(&self) -> bool {
         let moved = |key: u64| {
             let body = self.world.colliders.get(contact::collider(key)).and_then(|collider| collider.parent());
-            body.is_some_and(|body| {
-                is_integrated(&self.world, body) && self.contents.attachments.values().any(|a| a.body == body)
-            })
+            body.is_some_and(|body| is_integrated(&self.world, body) && self.contents.held_bodies().any(|b| b == body))
         };
         self.contents.cables.iter().any(|(_, slot)| {
             slot.cable.cable_contacts().any(|touch| touch.normal_force > 0.0)

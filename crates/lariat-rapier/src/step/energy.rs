@@ -152,7 +152,7 @@ pub(crate) fn note(
 }
 
 /// Returns the kinetic energy of a body and of what it carries in J.
-fn kinetic(body: &RigidBody) -> f64 {
+pub(super) fn kinetic(body: &RigidBody) -> f64 {
     let velocity = velocity_of(body);
     body.kinetic_energy() + body.carried.map_or(0.0, |carried| 0.5 * velocity.dot(&(carried * velocity)))
 }

@@ -13,10 +13,9 @@ use crate::contents::Contents;
 use crate::islands::Island;
 use crate::scales::step::MAX_OWED;
 use crate::step::HostStep;
+use crate::step::energy::kinetic;
 use crate::step::prediction::Prediction;
 use crate::step::settings::Settings;
-use ::nalgebra::Vector3;
-use lariat_ancf::island::RigidBody;
 use rapier::pipeline::PhysicsWorld;
 
 /// Begins a host step, or statics: the water has the time of the cables.
@@ -50,13 +49,7 @@ pub(super) fn parts(contents: &Contents, island: &Island, prediction: &Predictio
     let members = island.members.iter().zip(prediction.start.iter().zip(&prediction.end));
     let shares = members.filter_map(|(member, (start, end))| {
         let owed = water.owed(member.body()?, &(end.velocity - start.velocity))?;
-        let inertia = end.world_inertia(&end.rotation);
-        let spun = inertia.try_inverse()? * owed;
-        let kinetic = |body: &RigidBody| {
-            let momentum = body.velocity * body.mass
-                + body.carried.map_or(Vector3::zeros(), |r| r.fixed_view::<3, 3>(0, 0) * body.velocity);
-            0.5 * (body.velocity.dot(&momentum) + body.angular_velocity.dot(&(inertia * body.angular_velocity)))
-        };
+        let spun = end.world_inertia(&end.rotation).try_inverse()? * owed;
         let all = kinetic(start).max(kinetic(end));
         let energy = owed.dot(&end.angular_velocity).abs() + 0.5 * owed.dot(&spun);
         (all > 0.0).then_some(energy / all)
