@@ -26,6 +26,7 @@ impl CableTerms {
         CableTerms {
             dissipated,
             work: of_effects + law.loads + law.supports + cable.inserted_energy() + reels,
+            on_bodies: law.bodies,
             by_law: law.residual - law.numerical - law.rescaled - law.shortened,
             uncertain: law.uncertain,
             ..CableTerms::default()

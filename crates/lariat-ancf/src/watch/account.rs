@@ -52,6 +52,9 @@ pub struct CableTerms {
     pub dissipated: f64,
     /// Work of loads, moving supports, flows, reels and other bodies.
     pub work: f64,
+    /// Of that, the work of the forces on the bodies of its island.
+    #[serde(default)]
+    pub on_bodies: f64,
     /// Energy that the law of the discrete gradient says was made, less what it lost.
     pub by_law: f64,
     /// By how much the works may be wrong.
@@ -73,6 +76,7 @@ impl CableTerms {
         self.gravity += other.gravity;
         self.dissipated += other.dissipated;
         self.work += other.work;
+        self.on_bodies += other.on_bodies;
         self.by_law += other.by_law;
         self.uncertain += other.uncertain;
     }
@@ -88,7 +92,7 @@ pub struct IslandChange {
     pub by_law: bool,
     /// Energy that damping, drag, friction and impacts took in the step, in J.
     pub dissipated: f64,
-    /// Work on cables and bodies in the step in J, but that of gravity.
+    /// Work on the cables in the step in J, but that of gravity.
     pub work: f64,
     /// Energies at the end of the step in J, not their changes, and the weight.
     pub sizes: Sizes,

@@ -70,7 +70,7 @@ pub struct EnergyBalance {
     pub rounding_j: f64,
     /// Energy that damping and drag took in J.
     pub dissipated_j: f64,
-    /// Work of loads, moving supports, flows and other bodies in J.
+    /// Work on cables of loads, moving supports, flows and other bodies in J.
     pub work_j: f64,
 }
 

@@ -18,7 +18,10 @@
 //! What Rapier's step makes of the prediction is between two such steps, and no energy of
 //! integration: impulses of contacts and joints, damping of bodies, the motors that let them feel
 //! their cables; and so is what a user does. The impact of a cable that follows a body whose
-//! velocity jumped is dissipation. Where a gap closes, the work of its force is uncertain by all of
+//! velocity jumped is dissipation. The energy of the run has no work of f and tau: on a mechanism,
+//! whose bodies carry some 1e4 of their mass along what joints hold, they turn its momentum, and
+//! their work is large and ends in C. By the law, what they do work on, moves, is lifted, strained
+//! or dissipated, and that counts. Where a gap closes, the work of its force is uncertain by all of
 //! itself: of bodies in contact, which Rapier moves a little in each step, that adds up to some per
 //! cent of the energy in a second, and only what is more is told.
 //!
@@ -32,7 +35,8 @@
 //! The energy of the world from host step to host step, with the work of Rapier by the deviation of
 //! bodies at their mean velocity: contacts act within Rapier's substeps, on cables through the
 //! impedance of the step, and that is of the first order in the step: a right run had 1e-3 of its
-//! energy made.
+//! energy made. The energy of the run with the work of f and tau: that was 860 J of a boom that has
+//! 10 J, and 2 J that were lost in a snap remained untold (seed 60013 of tests/seeds).
 
 use crate::contents::Contents;
 use crate::convert::vector;
@@ -104,7 +108,7 @@ pub(crate) fn note(
         (sizes.weight, sizes.stiffness) = (sizes.weight + weight, sizes.stiffness + stiffness);
     }
     (sizes.kinetic, sizes.strain, sizes.gravity) = (terms.kinetic, terms.strain, terms.gravity);
-    let mut work = terms.work - before.work;
+    let mut work = terms.work - terms.on_bodies - (before.work - before.on_bodies);
     let mut made = terms.sum() - before.sum();
     let mut uncertain = terms.uncertain - before.uncertain;
     for (m, member) in island.members.iter().enumerate() {
@@ -115,7 +119,6 @@ pub(crate) fn note(
         let moved = last.position - first.position;
         let turned = (last.rotation * first.rotation.inverse()).scaled_axis();
         let of_others = (first.force - weight).dot(&moved) + first.torque.dot(&turned);
-        work += of_others;
         made += kinetic(last) - kinetic(first) - weight.dot(&moved) - of_others;
         sizes.kinetic += kinetic(last);
         sizes.gravity -= weight.dot(&last.position);
