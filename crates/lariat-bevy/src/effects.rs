@@ -19,6 +19,10 @@ use core::f64::consts::PI;
 use lariat_ancf::{BendingRule, Flow, LineLoad, Point, PointLoad, RestPiece, Section, Vector3};
 use serde::{Deserialize, Serialize};
 
+/// Share of critical damping above which it is said: the slower of both times of an overdamped mode
+/// is then four times that of its oscillation.
+const MOST_FRACTION: f64 = 2.0;
+
 /// A component that adds an effect of the mechanics to a cable.
 pub(crate) trait EffectComponent: Component + Clone + PartialEq {
     /// The parameters in the mechanics.
@@ -114,6 +118,11 @@ impl EffectComponent for Damping {
         match *self {
             Damping::Times(times) => Ok(times),
             Damping::CriticalFraction(fraction) => {
+                if fraction > MOST_FRACTION {
+                    log::warn!(
+                        "`Damping::critical_fraction` is {fraction}: it is a share, 1 is critical damping; with more than {MOST_FRACTION} a cable creeps, was a percentage meant?"
+                    );
+                }
                 let wave = (section.axial_stiffness / section.mass_per_length).sqrt();
                 lariat_ancf::Damping::from_ratio(fraction, 0.5 * PI * wave / length)
             }

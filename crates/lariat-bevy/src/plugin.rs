@@ -4,16 +4,18 @@ use crate::event::*;
 use crate::install::install;
 use crate::physics::Physics;
 use crate::schedule::CableStep;
-use bevy_app::{App, FixedUpdate, Plugin};
+use bevy_app::{App, FixedUpdate, Plugin, Startup};
 use bevy_ecs::intern::Interned;
 use bevy_ecs::schedule::ScheduleLabel;
+use bevy_ecs::system::Res;
 use bevy_ecs::world::World;
 use bevy_time::{Fixed, Time};
 
 /// Steps cables and bodies once in each run of a schedule, [`FixedUpdate`] by default. There a host
 /// step is as long as that of [`Time<Fixed>`](bevy_time::Fixed), 1/64 s unless it is set, and
 /// `integration_parameters.dt` of [`Physics`] follows it; in other schedules, and without
-/// [`TimePlugin`](bevy_time::TimePlugin), that is the host step.
+/// [`TimePlugin`](bevy_time::TimePlugin), that is the host step; `FixedUpdate` does not run without
+/// it, which is logged.
 #[derive(Clone, Debug)]
 pub struct LariatPlugin {
     schedule: Interned<dyn ScheduleLabel>,
@@ -44,6 +46,15 @@ pub fn install_in(app: &mut App) {
     crate::components::register(app);
 }
 
+/// Says that nothing runs `FixedUpdate`, where nothing does.
+fn needs_time(time: Option<Res<Time<Fixed>>>) {
+    if time.is_none() {
+        log::error!(
+            "`LariatPlugin` steps in `FixedUpdate`, and no plugin runs that, so nothing moves: add `TimePlugin`, or take `LariatPlugin::in_schedule(Update)`"
+        );
+    }
+}
+
 /// Sets the host step to that of the app.
 fn follow_time(world: &mut World) {
     let Some(step) = world.get_resource::<Time<Fixed>>().map(|time| time.timestep().as_secs_f32()) else { return };
@@ -58,6 +69,9 @@ impl Plugin for LariatPlugin {
     fn build(&self, app: &mut App) {
         install_in(app);
         let is_fixed = self.schedule == FixedUpdate.intern();
+        if is_fixed {
+            app.add_systems(Startup, needs_time);
+        }
         app.add_systems(self.schedule, move |world: &mut World| {
             if is_fixed {
                 follow_time(world);

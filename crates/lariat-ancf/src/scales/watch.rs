@@ -99,6 +99,15 @@ pub(crate) const CONTACT_TURN: f64 = core::f64::consts::TAU / 9.0;
 /// lengths.
 pub(crate) const TOUCHDOWN: f64 = 2e-3;
 
+/// Largest force by which an attachment pries, as a share of the largest tension or the weight.
+/// Setting: what users are told.
+pub(crate) const PRIED: f64 = 0.05;
+
+/// Radii beside the piece that an attachment holds in which it pries if it touches. Derived: it
+/// comes down again as far on the other side as it is pulled down on this one, several times as
+/// far if it is stiff; what bends it so much touches at once.
+pub(crate) const PRIED_BESIDE: f64 = 16.0;
+
 /// The angle that is advised. Unknown: twelve elements around a drum.
 pub(crate) const ADVISED: f64 = core::f64::consts::TAU / 12.0;
 
@@ -146,6 +155,15 @@ pub(crate) const LEAST_LIQUID: f64 = 100.0;
 
 /// Strain above which only rubber stretches. Derived: undrawn fibres break below it.
 pub(crate) const MOST_STRETCH: f64 = 0.5;
+
+/// Largest coefficient of friction. Derived: above that of racing tyres, 1.7.
+pub(crate) const MOST_FRICTION: f64 = 2.0;
+
+/// Strain above which only rubber breaks. Derived: undrawn fibres, and climbing ropes, break below.
+pub(crate) const STRETCHY: f64 = 1.0;
+
+/// Largest speed of waves in rubber in m/s. Derived: of the stiffest, 4e7 Pa and 1000 kg/m^3.
+pub(crate) const RUBBER: f64 = 200.0;
 
 /// Largest secant over EA of a curve whose strains are in percent. Derived: between a fifth of
 /// rubber, and a hundredth.

@@ -19,16 +19,22 @@
 //! at each edge without friction: masses on prisms of 12 to 96 sides fall 5 to 56 % too slowly
 //! (docs/decisions/contact.md). It is told after ten radii.
 //!
+//! An attachment on a face holds the centre line in it, and beside it the cable lies its radius away,
+//! from some radii on ([`Obstacle::except`]). One with bending stiffness pries itself up over this
+//! height: with the moment M where it first may touch, `l` from the attachment, the forces there
+//! have `M/l` from that, for which the fixture of a real rope, as thick as the rope, has no
+//! counterpart. It is told above a twentieth of the largest tension, or of the weight.
+//!
 //! A cable runs over another one if their contact moves along one of them by half a turn of the
 //! other, and less than half as much along that, while it sticks at all host times. What sticks
 //! moves along neither, but for one that turns beneath one that bends around it. The contact that
 //! pushes most is followed, one of a cable, up to four diameters in a host step.
 
 use super::Warning;
-use crate::cable::Cable;
+use crate::cable::{Cable, Prying};
 use crate::obstacle::{LARGEST_RESTITUTION, Obstacle, RigidMotion};
 use crate::scales::watch::{
-    ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, INSIDE, RUN, SLID, TOUCHDOWN,
+    ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, INSIDE, PRIED, RUN, SLID, TOUCHDOWN,
 };
 use crate::state::PairMemory;
 use crate::watch::{Contacts, Excess, Sticking};
@@ -121,9 +127,13 @@ impl Contacts {
         let [depth, turn] = cable.contact_quality(CONTACT_TURN);
         let rests = !cable.snapshot.state.memory.contacts.is_empty() && cable.velocities().iter().all(|v| *v == 0.0);
         let touchdown = cable.touchdown_quality();
-        for (excess, reading, limit) in
-            [(&mut self.depth, depth, DEPTH), (&mut self.turn, turn, 1.0), (&mut self.touchdown, touchdown, TOUCHDOWN)]
-        {
+        let pried = cable.prying().map_or([0.0; 2], |prying| [prying.arc_length, prying.share]);
+        for (excess, reading, limit) in [
+            (&mut self.depth, depth, DEPTH),
+            (&mut self.turn, turn, 1.0),
+            (&mut self.touchdown, touchdown, TOUCHDOWN),
+            (&mut self.pried, pried, PRIED),
+        ] {
             excess.note(cable.time(), reading, limit);
             if rests {
                 excess.rest(reading, limit);
@@ -169,6 +179,13 @@ impl Contacts {
             let enough = (cable.elements().len() as f64 * (2.0 * share / TOUCHDOWN).sqrt()).ceil() as usize;
             Warning::CoarseTouchdown { cable: cable.name().to_string(), arc_length_m, share, enough }
         })
+    }
+
+    /// Whether an attachment pries, as long as it does.
+    pub fn pried(&self, cable: &Cable) -> Option<Warning> {
+        self.pried.told()?;
+        let Prying { arc_length: arc_length_m, nearer: nearer_m, force: force_n, .. } = cable.prying()?;
+        Some(Warning::PriedAttachment { cable: cable.name().to_string(), arc_length_m, nearer_m, force_n })
     }
 
     /// Follows the contact with a cable that pushes most while it sticks.

@@ -16,8 +16,11 @@ impl Warning {
             | Warning::SlowBending { .. }
             | Warning::ThickElements { .. }
             | Warning::StartsInside { .. }
+            | Warning::PriedAttachment { .. }
             | Warning::ThickDrag { .. }
             | Warning::FastFlow { .. }
+            | Warning::RoughContact { .. }
+            | Warning::StretchyBreak { .. }
             | Warning::SoftCurve { .. }
             | Warning::MomentAlong { .. }
             | Warning::StiffTorsion { .. }
@@ -76,6 +79,8 @@ impl Warning {
             | Warning::ThickElements { cable, .. }
             | Warning::ThickDrag { cable, .. }
             | Warning::FastFlow { cable, .. }
+            | Warning::RoughContact { cable, .. }
+            | Warning::StretchyBreak { cable, .. }
             | Warning::SoftCurve { cable, .. }
             | Warning::BreaksAgain { cable, .. }
             | Warning::StartsInside { cable, .. }
@@ -96,6 +101,7 @@ impl Warning {
             | Warning::FrictionLags { cable, .. }
             | Warning::Facets { cable, .. }
             | Warning::RunsOver { cable, .. }
+            | Warning::PriedAttachment { cable, .. }
             | Warning::CutShort { cable, .. }
             | Warning::UnsolvedSteps { cable, .. }
             | Warning::IdleTorsion { cable, .. }
@@ -153,6 +159,7 @@ impl Judged for Warning {
             | Warning::CoarseTouchdown { .. }
             | Warning::HighRestitution { .. }
             | Warning::RunsOver { .. }
+            | Warning::PriedAttachment { .. }
             | Warning::IdleTorsion { .. }
             | Warning::KinksThroughItself { .. }
             | Warning::MomentAlong { .. }
@@ -162,6 +169,8 @@ impl Judged for Warning {
             | Warning::UnseenLoad { .. }
             | Warning::BreaksAgain { .. }
             | Warning::FastFlow { .. }
+            | Warning::RoughContact { .. }
+            | Warning::StretchyBreak { .. }
             | Warning::FrictionLags { .. }
             | Warning::UnsolvedSteps { .. }
             | Warning::Facets { .. }
@@ -215,6 +224,8 @@ impl Judged for Warning {
             Warning::Overloaded { tension_n, bears_n, .. } => tension_n / bears_n,
             Warning::BreaksAgain { breaks, .. } => f64::from(*breaks),
             Warning::FastFlow { speed_m_s, .. } => *speed_m_s,
+            Warning::RoughContact { friction, .. } => *friction,
+            Warning::StretchyBreak { strain, .. } => *strain,
             Warning::SoftCurve { strain, .. } => *strain,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,
             Warning::Facets { slid_m, .. } => *slid_m,
@@ -237,6 +248,7 @@ impl Judged for Warning {
             Warning::Thick { diameter_m, .. } | Warning::ThickDrag { diameter_m, .. } => *diameter_m,
             Warning::HighRestitution { restitution, .. } => *restitution,
             Warning::RunsOver { run_m, .. } => *run_m,
+            Warning::PriedAttachment { force_n, .. } => *force_n,
             Warning::UntouchedObstacles { count, .. } => *count as f64,
             Warning::IdleTorsion { .. } => 0.0,
         }

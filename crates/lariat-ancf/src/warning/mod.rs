@@ -489,6 +489,21 @@ pub enum Warning {
         /// Length in m that ran over it.
         run_m: f64,
     },
+    /// An attachment holds a stiff cable nearer a body than it lies beside it.
+    #[error(
+        "cable {cable:?}: at {arc_length_m:.4} m an attachment holds it {nearer_m:.2e} m nearer what it touches than its radius lets it lie beside that: bent over so much, it adds \
+         some {force_n:.1e} N to the forces there, more on a finer mesh; put the anchor that much farther out"
+    )]
+    PriedAttachment {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the attachment in m.
+        arc_length_m: f64,
+        /// How much nearer in m.
+        nearer_m: f64,
+        /// The moment beside the attachment over the length that does not touch, in N.
+        force_n: f64,
+    },
     /// Friction does not settle on the normal forces.
     #[error(
         "cable {cable:?}: in {steps} steps its friction did not settle on the normal forces of the step, and tensions along what it slides on are probably wrong: try \
@@ -531,6 +546,29 @@ pub enum Warning {
         cable: String,
         /// Number of such turns.
         slips: u64,
+    },
+    /// A coefficient of friction that no pair of materials has.
+    #[error(
+        "cable {cable:?}: its coefficient of friction is {friction}: no two materials have more than 2; it is a ratio of forces, not in percent, and no angle"
+    )]
+    RoughContact {
+        /// Name of the cable.
+        cable: String,
+        /// Its coefficient of friction.
+        friction: f64,
+    },
+    /// A breaking strain that no material of such stiffness reaches.
+    #[error(
+        "cable {cable:?}: it breaks at a strain of {strain}, {percent:.0} % of its length, and waves run along it at {wave_speed_m_s:.0} m/s, as in no rubber: a strain is a share of the \
+         length, not in percent; so it may never break", percent = 100.0 * .strain
+    )]
+    StretchyBreak {
+        /// Name of the cable.
+        cable: String,
+        /// Strain at which it breaks.
+        strain: f64,
+        /// Speed of waves along it in m/s.
+        wave_speed_m_s: f64,
     },
     /// It is several times as long as drawn.
     #[error(

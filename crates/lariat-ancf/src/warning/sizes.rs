@@ -15,15 +15,17 @@
 //! fastest tidal streams run at 10 m/s (Saltstraumen), and the fastest gust that was measured had
 //! 113 m/s (Barrow Island, 1996). A curve of which all secants are below a thirtieth of EA, up to
 //! strains that only rubber bears, has its strains in percent: rubber's own secants fall to a
-//! fifth.
+//! fifth. The largest coefficients of dry friction are those of racing tyres, 1.7. Only rubber, in
+//! which waves run at up to 200 m/s, breaks above a strain of 1.
 
 use super::Warning;
-use crate::effect::{AxialLaw, Damping, Drag, Effects};
+use crate::effect::{AxialLaw, Contact, Damping, Drag, Effects};
 use crate::scales::watch::{
-    FASTEST, FASTEST_CURRENT, FASTEST_WIND, LEAST_LIQUID, LIGHTEST, MOST_STRETCH, SLACK, SLENDERNESS, SLOWEST,
-    SLOWEST_STRAIN, SOFTEST, SOFTEST_CURVE, THICKEST,
+    FASTEST, FASTEST_CURRENT, FASTEST_WIND, LEAST_LIQUID, LIGHTEST, MOST_FRICTION, MOST_STRETCH, RUBBER, SLACK,
+    SLENDERNESS, SLOWEST, SLOWEST_STRAIN, SOFTEST, SOFTEST_CURVE, STRETCHY, THICKEST,
 };
 use crate::section::Section;
+use crate::strength::Strength;
 
 /// Returns the warnings about the section and the unstretched length (m) of a cable.
 pub fn warnings(cable: &str, section: &Section, length_m: f64) -> impl Iterator<Item = Warning> {
@@ -54,7 +56,21 @@ pub fn of_effects(cable: &str, effects: &Effects, axial_stiffness_n: f64) -> imp
     let damping = effects.damping.iter().flat_map(move |own| damping(cable, own));
     let drag = effects.drag.iter().flat_map(move |own| drag(cable, own));
     let curve = effects.axial_law.as_ref().and_then(|law| curve(cable, law, axial_stiffness_n));
-    damping.chain(drag).chain(curve)
+    let contact = effects.contact.as_ref().and_then(|own| friction(cable, own));
+    damping.chain(drag).chain(curve).chain(contact)
+}
+
+/// Returns the warning about a coefficient of friction in percent, or an angle in degrees.
+fn friction(cable: &str, contact: &Contact) -> Option<Warning> {
+    let friction = contact.friction;
+    (friction > MOST_FRICTION).then(|| Warning::RoughContact { cable: cable.to_string(), friction })
+}
+
+/// Returns the warning about a breaking strain in percent.
+pub fn strength(cable: &str, strength: &Strength, section: &Section) -> Option<Warning> {
+    let wave_speed_m_s = (section.axial_stiffness / section.mass_per_length).sqrt();
+    let strain = strength.strain.filter(|strain| *strain > STRETCHY && wave_speed_m_s > RUBBER)?;
+    Some(Warning::StretchyBreak { cable: cable.to_string(), strain, wave_speed_m_s })
 }
 
 /// Returns the warnings about damping in another measure.

@@ -29,7 +29,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 31] = [
+const LAWS: [(Law, bool); 32] = [
     (|watch, cable, _| watch.contacts.starts_inside(cable), true),
     (Watch::strain, true),
     (Watch::mesh, true),
@@ -43,6 +43,7 @@ const LAWS: [(Law, bool); 31] = [
     (|watch, cable, _| watch.contacts.sinks(cable), true),
     (|watch, cable, _| watch.contacts.coarse(cable), true),
     (|watch, cable, _| watch.contacts.touchdown(cable), true),
+    (|watch, cable, _| watch.contacts.pried(cable), true),
     (|_, cable, _| Contacts::lags(cable), true),
     (|_, cable, _| unseen_load(cable), true),
     (|_, cable, _| breaks_again(cable, cable.snapshot.load.breaks()), true),
@@ -64,7 +65,7 @@ const LAWS: [(Law, bool); 31] = [
 ];
 
 /// Layout: the bit of warnings about sizes.
-const SIZES: u32 = 1 << 31;
+const SIZES: u64 = 1 << 63;
 
 impl Watch {
     /// Begins with a cable as it is: displacements are counted from there.
@@ -132,7 +133,7 @@ impl Watch {
 
     /// Returns the laws that are due beyond those that are `known`, by bit, and calls `tell` with
     /// their warnings.
-    fn due(&self, cable: &Cable, known: u32, mut tell: impl FnMut(Warning)) -> u32 {
+    fn due(&self, cable: &Cable, known: u64, mut tell: impl FnMut(Warning)) -> u64 {
         let mut new = 0;
         if known & SIZES == 0 {
             new |= SIZES;
@@ -422,7 +423,8 @@ impl Cable {
         let thick = thickest.and_then(|e| sizes::elements(name, &e.section, length, e.length));
         // of a cable with a curve it is the same everywhere
         let stiffness = self.elements()[0].section.axial_stiffness;
-        shapes.chain(slack).chain(thick).chain(sizes::of_effects(name, self.effects(), stiffness))
+        let strength = sizes::strength(name, &self.strength(), &self.elements()[0].section);
+        shapes.chain(slack).chain(thick).chain(sizes::of_effects(name, self.effects(), stiffness)).chain(strength)
     }
 
     /// Lets the cable read itself after each of its host steps, or no longer:

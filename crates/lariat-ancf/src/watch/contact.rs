@@ -9,6 +9,8 @@ pub(crate) struct Contacts {
     pub(crate) turn: Excess,
     #[serde(default)]
     pub(crate) touchdown: Excess,
+    #[serde(default)]
+    pub(crate) pried: Excess,
     /// Key of the obstacle in which the cable was deepest when obstacles came, its arc length there
     /// and its depth, in m.
     #[serde(default)]

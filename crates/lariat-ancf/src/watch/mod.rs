@@ -91,8 +91,8 @@ pub struct Watch {
     /// Time of the last note in s.
     pub(crate) noted: Option<f64>,
     /// Laws that were counted, and told of, by bit.
-    pub(crate) counted: u32,
-    pub(crate) told: u32,
+    pub(crate) counted: u64,
+    pub(crate) told: u64,
 }
 
 impl Watch {

@@ -5,8 +5,8 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{Schedules, SingleThreadedExecutor};
 use core::cell::RefCell;
 use lariat_bevy::{
-    At, Attachment, Bending, BreakForce, BreakTension, Cable, CableStep, Contact, Drag, Drum, Gap, Junction, Physics,
-    RapierStep, Reel, Rope, Section, Sheave, SpawnRope, Torsion, lariat_ancf,
+    At, Attachment, Bending, BreakForce, BreakStrain, BreakTension, Cable, CableStep, Contact, Damping, Drag, Drum,
+    Gap, Junction, Physics, RapierStep, Reel, Rope, Section, Sheave, SpawnRope, Torsion, lariat_ancf,
 };
 
 thread_local! {
@@ -88,6 +88,31 @@ const MISTAKES: &[Mistake] = &[
         "a wind in km/h",
         |world| hung(world, (steel(), Drag::air().flowing([130.0, 0.0, 0.0]))),
         &["faster than any wind", "were knots or km/h meant?"],
+    ),
+    (
+        "a friction in percent",
+        |world| hung(world, (steel(), Contact::with_friction(30.0))),
+        &["friction is 30", "no two materials have more than 2", "not in percent"],
+    ),
+    (
+        "a breaking strain in percent",
+        |world| hung(world, (steel(), BreakStrain(2.0))),
+        &["a strain of 2, 200 % of its length", "not in percent"],
+    ),
+    (
+        "a damping in percent",
+        |world| hung(world, (steel(), Damping::critical_fraction(20.0))),
+        &["critical_fraction", "is 20", "was a percentage meant?"],
+    ),
+    (
+        "an app without a clock",
+        |_| {
+            let mut app = bevy_app::App::new();
+            app.add_plugins(lariat_bevy::LariatPlugin::default());
+            app.edit_schedule(bevy_app::Startup, |schedule| _ = schedule.set_executor(SingleThreadedExecutor::new()));
+            app.update();
+        },
+        &["nothing moves", "add `TimePlugin`"],
     ),
     (
         "a frame in ms",

@@ -3,7 +3,9 @@
 //! # Validity
 //!
 //! Tested are the line through five points of each element, which is inside where it is deeper than
-//! half the thickness of the cable and a millimetre, and lines from one point outside to the next:
+//! half the thickness of the cable and a millimetre (in the body of an attachment, outside
+//! which contact should hold it, than a millimetre: a crate whose rope was 0.8 of its radius inside
+//! read 53 N for 3), and lines from one point outside to the next:
 //! such a line runs through a collider, however thin, that it enters by one face and leaves by an
 //! opposite one. An edge sharper than 60 degrees that only touches the cable is taken for such a
 //! collider.
@@ -35,7 +37,11 @@ pub(crate) fn deepest_beside(cable: &Cable, collider: &Collider, except: &[[f64;
         return None;
     }
     let diameter = |element: &lariat_ancf::Element| element.section.diameter.unwrap_or(0.0);
-    let touching = cable.elements().iter().map(diameter).fold(2.0 * TOUCHING, f64::max) * 0.5;
+    let touching = if except.is_empty() {
+        cable.elements().iter().map(diameter).fold(2.0 * TOUCHING, f64::max) * 0.5
+    } else {
+        TOUCHING
+    };
     let mut deepest: Option<(f64, f64)> = None;
     let mut note = |s: f64, depth: f64| {
         if deepest.is_none_or(|(_, known)| depth > known * (1.0 + DEEPER)) {

@@ -35,7 +35,8 @@ impl Physics {
     }
 
     /// Returns the warnings of [`inside`](Self::inside) about cables in equilibrium that contact should keep out, and that are
-    /// deeper than an error of position that is told: their equilibrium is none.
+    /// deeper than an error of position that is told, or in a body that they are attached to, which squeezes them against the attachment: their
+    /// equilibrium is none.
     pub fn sunk(&mut self, scene: &Scene) -> Vec<Warning> {
         let found = self.inside(scene);
         let limit = |name: &str| {
@@ -43,6 +44,7 @@ impl Physics {
             cable.effects().contact.map(|_| (SUNK * cable.length()).max(cable.contact_radius()))
         };
         let sunk = |warning: &Warning| match warning {
+            Warning::StartsInside { own: true, .. } => true,
             Warning::StartsInside { cable, depth_m, .. } => limit(cable).is_some_and(|limit| *depth_m > limit),
             _ => false,
         };

@@ -346,7 +346,14 @@ fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
         sizes::warnings(name, section, length).chain(sizes::elements(name, section, length, element)).collect()
     };
     let of_effects = sizes::of_effects(name, &cable.effects, cable.sections.first().axial_stiffness);
-    cable.sections.iter().flat_map(of_section).chain(of_effects).chain(sizes::slack(name, length, drawn))
+    let strength = sizes::strength(name, &cable.breaking.strength, &cable.sections.first());
+    cable
+        .sections
+        .iter()
+        .flat_map(of_section)
+        .chain(of_effects)
+        .chain(strength)
+        .chain(sizes::slack(name, length, drawn))
 }
 
 /// Returns the warning about a radius of contact in another unit.

@@ -4,6 +4,7 @@ mod bodies;
 mod drawn;
 mod levels;
 mod mesh;
+mod prying;
 mod shipped;
 mod through;
 mod units;
