@@ -3,11 +3,12 @@
 mod common;
 
 use common::Random;
+use lariat_ancf::contact::{HalfSpace, Obstacle};
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::warning::{Passage, Through, fold};
+use lariat_ancf::warning::{Passage, Through, fold, name_of};
 use lariat_ancf::{
-    At, AxialLaw, Cable, CableBuilder, Damping, Drag, Effects, Flow, Integrator, Level, Method, PointLoad,
-    RopeMaterial, Section, StepControl, Strength, Vector3, Warning,
+    At, AxialLaw, Cable, CableBuilder, Contact, Damping, Drag, Effects, Fidelity, Flow, Integrator, Level, Method,
+    PointLoad, Reel, RopeMaterial, Section, StepControl, Strength, Vector3, Warning,
 };
 use std::f64::consts::PI;
 
@@ -205,6 +206,52 @@ fn measures_that_were_not_meant_are_told() {
     assert!(told(102.0, 40, 0.1).iter().any(slack) && !told(5.9, 40, 0.1).iter().any(slack));
 }
 
+/// Numbers of contact, breaking, gravity, error control and reels in another measure are told by the cable itself, and none where they are as they
+/// should be: a friction of its own or of what is near it, a radius, a breaking strain, which rubber bears, gravity in mm/s^2, a tolerance, and a
+/// reel whose eye nothing holds.
+#[test]
+fn numbers_of_another_measure_are_told() {
+    let told = |modulus: f64, change: &dyn Fn(CableBuilder) -> CableBuilder, set: &dyn Fn(&mut Cable)| -> Vec<String> {
+        let line = Cable::builder().points([Vector3::zeros(), Vector3::x() * 2.0]).fix(At::Start);
+        let line = change(line.section(Section::round(0.01, modulus, 1000.0).unwrap()).fidelity(Fidelity::Game));
+        let mut line = line.build().unwrap();
+        set(&mut line);
+        line.set_watched(true);
+        line.step(1e-4).unwrap();
+        let names = line.warnings().into_iter().filter(|warning| warning.level() == Level::Setup);
+        names.map(|warning| name_of(&warning)).collect()
+    };
+    let same = |line: CableBuilder| line;
+    let contact = |friction: f64, radius: f64, of_ground: f64| {
+        move |line: &mut Cable| {
+            line.set_contact(Contact { friction, ..Contact::default().with_radius(radius) }).unwrap();
+            let ground = HalfSpace { normal: Vector3::y() };
+            line.set_obstacles(vec![Obstacle::new(1, ground, -Vector3::y() * 3.0, of_ground)]).unwrap();
+        }
+    };
+    let none = Vec::<&str>::new();
+    assert_eq!(told(1e9, &same, &contact(1.5, 0.01, 1.5)), none);
+    assert_eq!(told(1e9, &same, &contact(30.0, 0.01, 0.3)), ["RoughContact"]);
+    assert_eq!(told(1e9, &same, &contact(0.3, 0.01, 30.0)), ["RoughContact"]);
+    assert_eq!(told(1e9, &same, &contact(0.3, 5.0, 0.3)), ["ThickContact"]);
+    let breaks = |strain: f64| move |line: &mut Cable| line.set_strength(Strength::strain(strain)).unwrap();
+    assert_eq!(told(1e9, &same, &breaks(0.4)), none);
+    assert_eq!(told(1e9, &same, &breaks(20.0)), ["StretchyBreak"]);
+    assert_eq!(told(1e7, &same, &breaks(5.0)), none);
+    let gravity = |size: f64| move |line: CableBuilder| line.gravity([0.0, -size, 0.0]);
+    assert_eq!(told(1e9, &gravity(1000.0), &|_| {}), none);
+    assert_eq!(told(1e9, &gravity(9810.0), &|_| {}), ["StrongGravity"]);
+    let controlled = |tolerance: f64| {
+        let control = StepControl::Tolerance(tolerance);
+        move |line: CableBuilder| line.integrator(Integrator { control, ..Integrator::default() })
+    };
+    assert_eq!(told(1e9, &controlled(0.01), &|_| {}), none);
+    assert_eq!(told(1e9, &controlled(5.0), &|_| {}), ["LargeTolerance"]);
+    let reel = |at: At| move |line: &mut Cable| line.add_reel(at, Reel::with_rate(0.1)).unwrap();
+    assert_eq!(told(1e9, &same, &reel(At::Start)), none);
+    assert_eq!(told(1e9, &same, &reel(At::End)), ["FreeEye"]);
+}
+
 /// A tension that breaks a rope of a known make is told, unless the rope has a strength; so is one of 0.05 EA in a stiff solid, whatever its
 /// law. Rubber bears it.
 ///
@@ -382,6 +429,13 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::ThickDrag { cable: cable(), diameter_m: 12.0 },
         Warning::FastFlow { cable: cable(), speed_m_s: 30.0, density_kg_m3: 1025.0, is_liquid: true },
         Warning::SoftCurve { cable: cable(), strain: 20.0, force_n: 4e4, axial_stiffness_n: 3e5 },
+        Warning::ThickContact { cable: cable(), radius_m: 5.0, length_m: 2.0, diameter_m: None },
+        Warning::StrongGravity { cable: cable(), gravity_m_s2: 9810.0 },
+        Warning::LargeTolerance { cable: cable(), tolerance_m: 5.0, length_m: 2.0 },
+        Warning::FreeEye { cable: cable(), arc_length_m: 2.0 },
+        Warning::RoughContact { cable: cable(), friction: 30.0 },
+        Warning::StretchyBreak { cable: cable(), strain: 2.0, wave_speed_m_s: 2e3 },
+        Warning::PriedAttachment { cable: cable(), arc_length_m: 0.5, nearer_m: 0.01, force_n: 3.0 },
         Warning::StartsInside { cable: cable(), obstacle: 1, arc_length_m: 0.5, depth_m: 0.1 },
         Warning::BeyondCurve { cable: cable(), time_s, tension_n: 2.0, strain: 0.1, force_n: 1.0 },
         Warning::BreaksAgain { cable: cable(), breaks: 3 },

@@ -30,6 +30,9 @@ pub enum Error {
         /// The marks.
         expected: String,
     },
+    /// A pool of threads cannot be started.
+    #[error("cannot start threads: {0}")]
+    Threads(String),
     /// Sections of a report failed; the others are written.
     #[error("these sections failed, the others are written: {}", titles.join("; "))]
     Sections {
@@ -56,7 +59,11 @@ impl Error {
         match self {
             Error::Output { .. } | Error::Read { .. } | Error::NoMark { .. } => 2,
             Error::Scene(error) => error.exit_code(),
-            Error::Sections { .. } | Error::Figure(_) | Error::Mechanics(_) | Error::Coupling(_) => 3,
+            Error::Threads(_)
+            | Error::Sections { .. }
+            | Error::Figure(_)
+            | Error::Mechanics(_)
+            | Error::Coupling(_) => 3,
         }
     }
 }

@@ -179,7 +179,7 @@ pub(crate) fn build(mut world: DeferredWorld, entity: Entity) {
             cables.links.built.insert(entity, Err(error.clone()));
             let event = CableFailed { entity, error };
             if let Some(mut logged) = world.get_resource_mut::<Logged>() {
-                logged.note(&event.clone().into());
+                logged.note(&event.clone().into(), None);
             }
             world.write_message(event.clone());
             world.commands().trigger(event);

@@ -30,6 +30,7 @@ use crate::event::{QueuedEvent, StepFailed};
 use crate::links::Links;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::resource::Resource;
+use lariat_ancf::warning::Interface;
 use lariat_ancf::{At, Break};
 use lariat_rapier::rapier::dynamics::RigidBodyHandle;
 use lariat_rapier::rapier::math::Pose;
@@ -135,6 +136,14 @@ impl Cables {
             _ => None,
         };
         self.broken.extend(self.set.take_events().into_iter().filter_map(parting));
+    }
+
+    /// Returns what is to be said about all cables in a world, by level, in the words of Bevy: the
+    /// [warnings of the set](lariat_rapier::CableSet::warnings). Worth a look when a scene has been
+    /// built.
+    pub fn warnings(&self, world: &PhysicsWorld) -> Vec<String> {
+        let text = |warning| self.links.name_entities(&Interface::Bevy.text(&warning));
+        self.set.warnings(world).into_iter().map(text).collect()
     }
 
     /// Iterates over all cables with their entities, those of disabled entities included.

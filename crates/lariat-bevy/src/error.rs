@@ -1,6 +1,7 @@
 //! The error type of this crate.
 
 use bevy_ecs::entity::Entity;
+use lariat_ancf::warning::Interface;
 use thiserror::Error as ThisError;
 
 /// The error type of this crate.
@@ -12,7 +13,7 @@ pub enum Error {
     #[error("entity {0} has no cable")]
     NotACable(Entity),
     /// A cable whose description cannot be built.
-    #[error("the cable of entity {entity} could not be built: {reason}")]
+    #[error("the cable of entity {entity} could not be built: {}", Interface::Bevy.text(.reason))]
     NotBuilt {
         /// The entity of the cable.
         entity: Entity,
@@ -35,10 +36,10 @@ pub enum Error {
     #[error("entity {0} has no sheave over which a cable runs")]
     NotASheave(Entity),
     /// From the mechanics of a cable.
-    #[error(transparent)]
+    #[error("{}", Interface::Bevy.text(.0))]
     Cable(#[from] lariat_ancf::Error),
     /// From the coupling to bodies.
-    #[error(transparent)]
+    #[error("{}", Interface::Bevy.text(.0))]
     Coupling(#[from] lariat_rapier::Error),
     /// A host engine that takes several Rapier steps between [`BeforeEngine`](crate::BeforeEngine)
     /// and [`AfterEngine`](crate::AfterEngine).

@@ -2,13 +2,16 @@
 //! event to observe. Failures are logged, too, at level error, once each: a rope that cannot be
 //! attached is not missed in a program that observes nothing.
 
+use crate::cables::Cables;
 use crate::error::Error;
+use crate::links::Links;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::event::EntityEvent;
 use bevy_ecs::message::{Message, Messages};
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
 use lariat_ancf::Break;
+use lariat_ancf::warning::Interface;
 use lariat_rapier::rapier::geometry::ColliderHandle;
 use std::collections::HashMap;
 
@@ -112,15 +115,22 @@ pub struct ContactIgnored {
 
 /// The mesh, the steps, the law or the sizes of a cable are probably not good enough. Sent once for
 /// each kind, up to the level of [`Settings::warn_level`](lariat_rapier::Settings::warn_level), and
-/// logged; the text of the warning says what to do. What is wrong with how cables and attachments
+/// logged; its [`text`](Self::text) says what to do. What is wrong with how cables and attachments
 /// meet bodies ([`lariat_rapier::Warning`]) is logged alone, before the first host step;
-/// [`CableSet::warnings`](lariat_rapier::CableSet::warnings) returns it at any time.
+/// [`Cables::warnings`](crate::Cables::warnings) returns it at any time.
 #[derive(EntityEvent, Message, Clone, Debug, PartialEq)]
 pub struct CableWarning {
     /// The cable.
     pub entity: Entity,
     /// What it says about itself.
     pub warning: lariat_ancf::Warning,
+}
+
+impl CableWarning {
+    /// Returns what it says, with the names of Bevy's components.
+    pub fn text(&self) -> String {
+        Interface::Bevy.text(&self.warning)
+    }
 }
 
 /// A cable and its anchor on a body, which had met, came apart: by more than 2e-3 of the length of the cable. Sent once for each attachment; take shorter
@@ -273,8 +283,9 @@ macro_rules! queue {
         impl QueuedEvent {
             /// Writes the message, runs the observers, and logs a failure that this entity has not had.
             pub fn send(self, world: &mut World) {
-                if let Some(mut logged) = world.get_resource_mut::<Logged>() {
-                    logged.note(&self);
+                if let Some(mut logged) = world.remove_resource::<Logged>() {
+                    logged.note(&self, world.get_resource::<Cables>().map(|cables| &cables.links));
+                    world.insert_resource(logged);
                 }
                 match self {
                     $(QueuedEvent::$event(event) => {
@@ -300,7 +311,7 @@ macro_rules! failures {
             /// Returns entity, event and text of one that the program has to mend.
             fn failure(&self) -> Option<(Entity, &'static str, String)> {
                 match self {
-                    $(QueuedEvent::$event(event) => Some((event.entity, stringify!($event), event.error.to_string())),)*
+                    $(QueuedEvent::$event(event) => Some((event.entity, stringify!($event), Interface::Bevy.text(&event.error))),)*
                     _ => None,
                 }
             }
@@ -315,8 +326,9 @@ pub(crate) struct Logged(HashMap<(Entity, &'static str), String>);
 
 impl Logged {
     /// Logs a failure, unless it is the last one of its entity and event.
-    pub fn note(&mut self, event: &QueuedEvent) {
+    pub fn note(&mut self, event: &QueuedEvent, links: Option<&Links>) {
         let Some((entity, event, failure)) = event.failure() else { return };
+        let failure = links.map_or(failure.clone(), |links| links.name_entities(&failure));
         if self.0.get(&(entity, event)) != Some(&failure) {
             log::error!("{event} of {entity}: {failure}");
             self.0.insert((entity, event), failure);

@@ -97,6 +97,19 @@ impl Links {
         Some(handle)
     }
 
+    /// Returns a text in which entities stand for the handles of their bodies.
+    pub fn name_entities(&self, text: &str) -> String {
+        let name = |text: String, (body, entity): (&RigidBodyHandle, &Entity)| {
+            text.replace(&format!("{body:?}"), &format!("of entity {entity}"))
+        };
+        // most texts have none
+        if text.contains("RigidBodyHandle(") {
+            self.bodies.iter().fold(text.to_string(), name)
+        } else {
+            text.to_string()
+        }
+    }
+
     /// Renames entities.
     pub fn renamed(&self, name: &(impl Fn(Entity) -> Entity + ?Sized)) -> Links {
         let mut links = self.clone();

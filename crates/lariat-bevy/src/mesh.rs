@@ -107,6 +107,8 @@ pub struct RopeVertices {
     drawn: (Vec<f64>, Option<RopeMesh>),
     /// By ring the direction of the painted line; empty without torsion.
     stripe: Vec<Option<Vector3<f64>>>,
+    /// By vertex of a ring cosine and sine of the way round.
+    circle: Vec<[f64; 2]>,
 }
 
 /// A point of the curve with a frame that does not twist but with the cable.
@@ -131,7 +133,12 @@ impl RopeVertices {
         let fewer = self.drawn.0.len() != positions.len() || self.drawn.1.as_ref() != Some(mesh);
         self.drawn.0.clear();
         self.drawn.0.extend_from_slice(positions);
-        self.drawn.1 = Some(mesh.clone());
+        if self.drawn.1.as_ref() != Some(mesh) {
+            self.drawn.1 = Some(mesh.clone());
+            self.circle.clear();
+            let angles = (0..=mesh.sides).map(|k| core::f64::consts::TAU * (k as f64 / mesh.sides as f64));
+            self.circle.extend(angles.map(|angle| [angle.cos(), angle.sin()]));
+        }
         self.positions.clear();
         self.normals.clear();
         self.uvs.clear();
@@ -180,9 +187,10 @@ impl RopeVertices {
 
     /// Appends a ring; its first vertex is there twice, for both ends of the texture.
     fn ring(&mut self, mesh: &RopeMesh, ring: &Ring, s: f64, colour: Option<[f32; 4]>) {
+        let up = ring.tangent.cross(&ring.across);
         for k in 0..=mesh.sides {
-            let u = k as f64 / mesh.sides as f64;
-            let normal = ring.outward(u);
+            let (u, [cos, sin]) = (k as f64 / mesh.sides as f64, self.circle[k]);
+            let normal = ring.across * cos + up * sin;
             self.vertex(ring.centre + normal * mesh.radius, normal, [u, s / mesh.texture_length], colour);
         }
     }
@@ -191,9 +199,11 @@ impl RopeVertices {
     fn disc(&mut self, mesh: &RopeMesh, ring: &Ring, sign: f64, s: f64, colour: Option<[f32; 4]>) {
         let (normal, v) = (ring.tangent * sign, s / mesh.texture_length);
         self.vertex(ring.centre, normal, [0.5, v], colour);
+        let up = ring.tangent.cross(&ring.across);
         for k in 0..mesh.sides {
-            let u = k as f64 / mesh.sides as f64;
-            self.vertex(ring.centre + ring.outward(u) * mesh.radius, normal, [u, v], colour);
+            let (u, [cos, sin]) = (k as f64 / mesh.sides as f64, self.circle[k]);
+            let outward = ring.across * cos + up * sin;
+            self.vertex(ring.centre + outward * mesh.radius, normal, [u, v], colour);
         }
     }
 
@@ -239,12 +249,6 @@ impl Ring {
     fn turn_to(&mut self, direction: Option<Vector3<f64>>) {
         let across = direction.map(|d| d - self.tangent * d.dot(&self.tangent));
         self.across = across.and_then(|d| d.try_normalize(f64::MIN_POSITIVE)).unwrap_or(self.across);
-    }
-
-    /// Returns the outward normal at a share of the way round.
-    fn outward(&self, u: f64) -> Vector3<f64> {
-        let (sin, cos) = (core::f64::consts::TAU * u).sin_cos();
-        self.across * cos + self.tangent.cross(&self.across) * sin
     }
 }
 

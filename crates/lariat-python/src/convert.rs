@@ -48,6 +48,41 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Array {
     }
 }
 
+/// A whole number of at least 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Count(pub usize);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Count {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let wanted = "a whole number of at least 0";
+        if object.is_instance_of::<PyBool>() || !object.hasattr("__index__")? {
+            let kind = object.get_type().name()?.to_string();
+            return Err(PyTypeError::new_err(format!("expected {wanted}, got {} ({kind})", object.repr()?)));
+        }
+        object.extract().map(Count).map_err(|_| {
+            let message = format!("expected {wanted}, got {}", &*object);
+            raise(
+                Raise::new("InvalidValueError", message)
+                    .with("value", object.extract::<f64>().ok())
+                    .with("expected", wanted),
+            )
+        })
+    }
+}
+
+/// Numbers in a row, from any sequence or array.
+#[derive(Clone, Debug)]
+pub struct Numbers(pub Vec<f64>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
+    type Error = PyErr;
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let numbers = Array::extract(object)?;
+        if numbers.shape.len() == 1 { Ok(Numbers(numbers.values)) } else { Err(numbers.wrong_shape("(n,)")) }
+    }
+}
+
 impl Array {
     /// Returns the exception that the shape is another than `expected`.
     pub fn wrong_shape(&self, expected: &str) -> PyErr {

@@ -3,6 +3,7 @@
 //! The classes are those of `lariat.errors`, named after the variant: `Error::NoNode` raises `NoNodeError`. A kind that has no class of
 //! its own there raises the base class `Error`.
 
+use lariat_ancf::warning::Interface;
 use nalgebra::Vector3;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -77,7 +78,7 @@ impl Raise {
     fn of(error: &(impl std::fmt::Debug + std::fmt::Display), fields: Vec<(&'static str, Field)>) -> Self {
         let debug = format!("{error:?}");
         let variant = debug.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
-        Raise { class: format!("{variant}Error"), message: error.to_string(), fields }
+        Raise { class: format!("{variant}Error"), message: Interface::Python.text(error), fields }
     }
 
     fn instance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

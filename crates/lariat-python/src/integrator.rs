@@ -1,5 +1,6 @@
 //! `Integrator`: a method with its step control; names of methods and kinds of rope.
 
+use crate::convert::Count;
 use crate::error::{Raise, raise};
 use lariat_ancf::{self as ancf, ErrorNorm, Fidelity, Method, RopeKind, StepControl};
 use pyo3::exceptions::PyTypeError;
@@ -31,7 +32,7 @@ impl Integrator {
         method: &str,
         tolerance: Option<f64>,
         norm: Option<&str>,
-        substeps: Option<u32>,
+        substeps: Option<Count>,
         max_step: Option<f64>,
         adaptive: Option<f64>,
         stable: Option<f64>,
@@ -49,7 +50,7 @@ impl Integrator {
         let norm = norm.map(|name| name.parse::<ErrorNorm>().map_err(raise)).transpose()?;
         let controls = [
             tolerance.map(|x| norm.map_or(StepControl::Tolerance(x), |norm| StepControl::ToleranceOf(x, norm))),
-            substeps.map(StepControl::Substeps),
+            substeps.map(|count| StepControl::Substeps(u32::try_from(count.0).unwrap_or(u32::MAX))),
             max_step.map(StepControl::MaxStep),
             adaptive.map(StepControl::Adaptive),
             stable.map(StepControl::Stable),

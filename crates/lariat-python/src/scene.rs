@@ -1,6 +1,6 @@
 //! Runs of scenes, and sweeps over them. Tables, progress and clusters are in `lariat.run` and `lariat.sweep`.
 
-use crate::convert::{data, object, table};
+use crate::convert::{Count, data, object, table};
 use crate::error::{Raise, raise};
 use lariat_ancf::study::{InvalidTarget, Target};
 use lariat_scene::command;
@@ -9,7 +9,6 @@ use lariat_scene::run::{self, Options, Recording, State};
 use lariat_scene::signed::{self, Comment};
 use lariat_scene::sweep::{self, Row, Source, Store};
 use lariat_scene::{Error, Purpose, Scene};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::ffi::OsString;
@@ -141,7 +140,10 @@ impl AskedError {
         match self {
             AskedError::Positions(error) => Ok(error.into()),
             AskedError::Text(text) => {
-                text.parse().map_err(|error: InvalidTarget| PyValueError::new_err(error.to_string()))
+                let named = |error: InvalidTarget| {
+                    raise(Raise::new("InvalidValueError", error.to_string()).with("value", text.clone()))
+                };
+                text.parse().map_err(named)
             }
         }
     }
@@ -267,14 +269,14 @@ pub fn sweep_table(rows: Vec<String>, out: PathBuf) -> PyResult<()> {
 
 /// Runs a scene with each of these settings on `threads` threads (0: all), and returns the rows as JSON.
 #[pyfunction]
-#[pyo3(signature = (file, text, points, out=None, *, threads=0, progress=None))]
+#[pyo3(signature = (file, text, points, out=None, *, threads=Count(0), progress=None), text_signature = "(file, text, points, out=None, *, threads=0, progress=None)")]
 pub fn sweep_local(
     py: Python<'_>,
     file: &str,
     text: &str,
     points: Vec<Vec<String>>,
     out: Option<PathBuf>,
-    threads: usize,
+    threads: Count,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<String>> {
     let (stop, done) = (Arc::new(AtomicBool::new(false)), AtomicUsize::new(0));
@@ -282,7 +284,7 @@ pub fn sweep_local(
     let rows = py.detach(|| {
         let source = Source { file, text };
         let store = out.as_deref().map(|out: &Path| Store::open(out, &source)).transpose()?;
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.0).build();
         let each = |_: &Row, _: bool| _ = done.fetch_add(1, Ordering::Relaxed);
         let run = || sweep::sweep(&source, &points, store.as_ref(), &stop, &each);
         std::thread::scope(|scope| {

@@ -44,6 +44,30 @@ def removed() -> None:
     sling.reel("start")
 
 
+def removed_body() -> None:
+    world, sling, crate = yard()
+    world.remove_body(crate)
+    world.attach(sling, "end", crate)
+
+
+def stretched(strain: float) -> lariat.Cable:
+    line = rope()
+    line.set_strength(strain=strain)
+    return line
+
+
+def free_reel() -> lariat.Cable:
+    line = rope()
+    line.add_reel("end", lariat.Reel(0.5))
+    return line
+
+
+def light_water() -> lariat.World:
+    world, _, _ = yard()
+    world.set_water(lariat.Water(1.025))
+    return world
+
+
 def step_by_itself() -> None:
     yard()[1].step(0.01)
 
@@ -56,7 +80,23 @@ MISTAKES: list[tuple[str, Callable[[], Any], list[str]]] = [
     ("the modulus for EA", lambda: rope(lariat.Section(2.1e11, 0.5, 0.25)), ["was the modulus given?"]),
     ("a slack in percent", lambda: rope(length=10.0), ["% of slack"]),
     ("damping as a share", lambda: rope(effects=lariat.Damping(2.0, 0.0)), ["2 s", "Cable(damped_as="]),
+    ("a friction in percent", lambda: rope(effects=Contact(friction=30.0)), ["no two materials", "not in percent"]),
+    ("a breaking strain in percent", lambda: stretched(2.0), ["200 % of its length", "not in percent"]),
+    ("a radius of contact in mm", lambda: rope(effects=Contact(radius=5.0)), ["was 5 mm meant?"]),
+    ("gravity in mm/s^2", lambda: rope(gravity=[0, -9810, 0]), ["not in mm/s^2"]),
+    ("a tolerance in mm", lambda: rope(fidelity=None, integrator=lariat.Integrator("esdirk4", tolerance=5.0)), ["an error of positions in m"]),
+    ("water in t/m^3", light_water, ["g/cm^3 or t/m^3 meant?"]),
+    ("a reel at a free end", free_reel, ["nothing holds the eye"]),
     # numbers that nothing has
+    ("elements below 0", lambda: rope(elements=-1), ["a whole number of at least 0, got -1"]),
+    ("elements as a text", lambda: rope(elements="10"), ["a whole number of at least 0, got '10' (str)"]),
+    ("half a step", lambda: rope().step(0.01, steps=2.5), ["a whole number of at least 0, got 2.5 (float)"]),
+    ("a node by a name", lambda: rope(nodes_at="middle"), ["expected numbers, got str"]),
+    ("an effect that is not made", lambda: rope(effects=lariat.Drag), ["the class Drag: write Drag(...)"]),
+    ("an effect by its name", lambda: rope(effects="drag"), ["an effect of lariat, or a list of them, got 'drag'"]),
+    ("an exchange of a cable", lambda: lariat.Exchange(rope()), ["expected a CoSimulation", "got Cable"]),
+    ("a recording of nothing", lambda: lariat.record(rope()).save("nowhere"), ["call take()"]),
+    ("a body that was removed", removed_body, ["RigidBodyHandle(index=0, generation=0)"]),
     ("one point", lambda: lariat.Cable([[0, 0, 0]], STEEL), ["at least 2 points"]),
     ("points in a plane", lambda: lariat.Cable([[0, 0], [1, 0]], STEEL), ["3"]),
     ("points in columns", lambda: lariat.Cable([[0, 1], [0, 0], [0, 0]], STEEL), ["3"]),

@@ -67,11 +67,11 @@ pub enum Error {
     },
     /// A world that is not the one of the attachments: no body is where it belongs, or handles name
     /// other bodies. Nothing has changed.
-    #[error("this world is not the one of the set's attachments: step that one, or detach them first")]
+    #[error("the cables are attached to bodies of another world: step that one, or detach them first")]
     OtherWorld,
     /// An anchor or a second cable too far from the point of the cable.
     #[error(
-        "cable {cable:?}: {gap:.3e} m from what it is to be attached to, at most {limit:e} m are allowed (see Gap); anchors are in the axes of their body"
+        "cable {cable:?}: {gap:.3e} m from what it is to be attached to, at most {limit:e} m are allowed (`Gap`); anchors are in the axes of their body"
     )]
     GapTooLong {
         /// Name of the cable.

@@ -364,6 +364,9 @@ pub(crate) mod read {
     /// colliders. Derived: no hook is further from its body; scenes have the same.
     pub(crate) const FAR_ANCHOR: f64 = 3.0;
 
+    /// Density in kg/m^3 below which no water is. Derived: fuels have 700, liquid gas 430.
+    pub(crate) const LIGHT_WATER: f64 = 400.0;
+
     /// Depth in m, besides half the thickness of the cable, that is not taken for touching.
     /// Unknown: a millimetre.
     pub(crate) const TOUCHING: f64 = 1e-3;

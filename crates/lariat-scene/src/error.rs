@@ -1,5 +1,6 @@
 //! The errors between a scene file and its results.
 
+use lariat_ancf::warning::Interface;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -260,7 +261,7 @@ pub enum Error {
         problem: String,
     },
     /// A failed step, or a cable without equilibrium. Names the cable and the time.
-    #[error("{}{source}", moment(source, *time))]
+    #[error("{}{}", moment(source, *time), Interface::Scene.text(source))]
     Mechanics {
         /// Simulated time of the last good state in s.
         time: f64,
@@ -279,7 +280,7 @@ pub enum Error {
         problem: String,
     },
     /// An error of the coupling between cables and bodies.
-    #[error("at t = {time} s: {source}")]
+    #[error("at t = {time} s: {}", Interface::Scene.text(source))]
     Coupling {
         /// Simulated time in s.
         time: f64,

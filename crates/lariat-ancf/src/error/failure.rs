@@ -140,7 +140,7 @@ pub enum EquilibriumFailure {
     /// A reel would slip in the shape that was found: its brake, clutch or free spool holds less
     /// than the cable pulls.
     #[error(
-        "the cable pulls {pull:.3e} N at its reel, which holds {largest:.3e} N at most and slips: nothing rests there; give it a larger `max_force`, \
+        "the cable pulls {pull:.3e} N at its reel, which holds {largest:.3e} N at most and slips: nothing rests there; give it a larger `Reel::max_force`, \
          or begin without equilibrium"
     )]
     Slips {

@@ -177,7 +177,7 @@ pub enum Error {
     },
     /// An obstacle on a body that the island does not have, or outside an island.
     #[error(
-        "cable {cable:?}: its obstacle {key} is carried by body {body}, but {bodies} bodies step with the cable; use Island::step"
+        "cable {cable:?}: its obstacle {key} is carried by body {body}, but {bodies} bodies step with the cable; use `Island::step`"
     )]
     ObstacleBody {
         /// Name of the cable.
@@ -316,7 +316,7 @@ pub enum Error {
     /// An arc length at which there is no node.
     #[error(
         "cable {cable:?}: no node at arc length {arc_length} m, the nearest is at {nearest} m: \
-         ask for one with node_at when building"
+         ask for one with `CableBuilder::node_at`"
     )]
     NoNode {
         /// Name of the cable.

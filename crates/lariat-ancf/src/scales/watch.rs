@@ -156,6 +156,22 @@ pub(crate) const LEAST_LIQUID: f64 = 100.0;
 /// Strain above which only rubber stretches. Derived: undrawn fibres break below it.
 pub(crate) const MOST_STRETCH: f64 = 0.5;
 
+/// Largest diameter of contact in m. Derived: the thickest pipelines with their coating.
+pub(crate) const MOST_WIDE: f64 = 1.5;
+
+/// Largest diameter of contact over the length of a cable. Derived: twice that of a stubby one.
+pub(crate) const WIDE_SHARE: f64 = 0.2;
+
+/// Largest radius of contact over the diameter of the section. Derived: more than any sheath.
+pub(crate) const SHEATH: f64 = 10.0;
+
+/// Largest gravity in m/s^2. Derived: between what centrifuges of geotechnics have, 100 to 200 g,
+/// and that of the earth in mm/s^2.
+pub(crate) const STRONGEST_GRAVITY: f64 = 3000.0;
+
+/// Largest tolerance of positions over the length. Setting: a tenth is no control of errors.
+pub(crate) const LARGE_TOLERANCE: f64 = 0.1;
+
 /// Largest coefficient of friction. Derived: above that of racing tyres, 1.7.
 pub(crate) const MOST_FRICTION: f64 = 2.0;
 

@@ -19,10 +19,10 @@
 //! at each edge without friction: masses on prisms of 12 to 96 sides fall 5 to 56 % too slowly
 //! (docs/decisions/contact.md). It is told after ten radii.
 //!
-//! An attachment on a face holds the centre line in it, and beside it the cable lies its radius away,
-//! from some radii on ([`Obstacle::except`]). One with bending stiffness pries itself up over this
-//! height: with the moment M where it first may touch, `l` from the attachment, the forces there
-//! have `M/l` from that, for which the fixture of a real rope, as thick as the rope, has no
+//! An attachment on a face holds the centre line in it, and beside it the cable lies its radius
+//! away, from some radii on ([`Obstacle::except`]). One with bending stiffness pries itself up over
+//! this height: with the moment M where it first may touch, `l` from the attachment, the forces
+//! there have `M/l` from that, for which the fixture of a real rope, as thick as the rope, has no
 //! counterpart. It is told above a twentieth of the largest tension, or of the weight.
 //!
 //! A cable runs over another one if their contact moves along one of them by half a turn of the

@@ -19,6 +19,10 @@ impl Warning {
             | Warning::PriedAttachment { .. }
             | Warning::ThickDrag { .. }
             | Warning::FastFlow { .. }
+            | Warning::ThickContact { .. }
+            | Warning::StrongGravity { .. }
+            | Warning::LargeTolerance { .. }
+            | Warning::FreeEye { .. }
             | Warning::RoughContact { .. }
             | Warning::StretchyBreak { .. }
             | Warning::SoftCurve { .. }
@@ -79,6 +83,10 @@ impl Warning {
             | Warning::ThickElements { cable, .. }
             | Warning::ThickDrag { cable, .. }
             | Warning::FastFlow { cable, .. }
+            | Warning::ThickContact { cable, .. }
+            | Warning::StrongGravity { cable, .. }
+            | Warning::LargeTolerance { cable, .. }
+            | Warning::FreeEye { cable, .. }
             | Warning::RoughContact { cable, .. }
             | Warning::StretchyBreak { cable, .. }
             | Warning::SoftCurve { cable, .. }
@@ -133,6 +141,7 @@ impl Judged for Warning {
             | Warning::FastWaves { .. }
             | Warning::ThickDrag { .. }
             | Warning::SoftCurve { .. }
+            | Warning::ThickContact { .. }
             | Warning::SoftMaterial { .. } => Sign::Sizes,
             Warning::LargeStrain { .. }
             | Warning::GreenStrain { .. }
@@ -169,6 +178,9 @@ impl Judged for Warning {
             | Warning::UnseenLoad { .. }
             | Warning::BreaksAgain { .. }
             | Warning::FastFlow { .. }
+            | Warning::StrongGravity { .. }
+            | Warning::LargeTolerance { .. }
+            | Warning::FreeEye { .. }
             | Warning::RoughContact { .. }
             | Warning::StretchyBreak { .. }
             | Warning::FrictionLags { .. }
@@ -225,6 +237,10 @@ impl Judged for Warning {
             Warning::BreaksAgain { breaks, .. } => f64::from(*breaks),
             Warning::FastFlow { speed_m_s, .. } => *speed_m_s,
             Warning::RoughContact { friction, .. } => *friction,
+            Warning::ThickContact { radius_m, .. } => *radius_m,
+            Warning::StrongGravity { gravity_m_s2, .. } => *gravity_m_s2,
+            Warning::LargeTolerance { tolerance_m, .. } => *tolerance_m,
+            Warning::FreeEye { arc_length_m, .. } => *arc_length_m,
             Warning::StretchyBreak { strain, .. } => *strain,
             Warning::SoftCurve { strain, .. } => *strain,
             Warning::RoundedEnds { noise_n, .. } => *noise_n,

@@ -570,6 +570,53 @@ pub enum Warning {
         /// Speed of waves along it in m/s.
         wave_speed_m_s: f64,
     },
+    /// A radius of contact that no cable has.
+    #[error(
+        "cable {cable:?}: the radius of its contact is {radius_m} m, of a cable that is {length_m:.4} m long{}: it is in m; was {radius_m} mm meant?",
+        .diameter_m.map_or(String::new(), |d| format!(" and {d} m thick"))
+    )]
+    ThickContact {
+        /// Name of the cable.
+        cable: String,
+        /// Radius of contact in m.
+        radius_m: f64,
+        /// Unstretched length in m.
+        length_m: f64,
+        /// Outer diameter of the section in m, if it is known.
+        diameter_m: Option<f64>,
+    },
+    /// Gravity in another unit.
+    #[error(
+        "cable {cable:?}: gravity is {gravity_m_s2} m/s^2, more than 300 times that of the earth: it is in m/s^2, not in mm/s^2"
+    )]
+    StrongGravity {
+        /// Name of the cable.
+        cable: String,
+        /// Acceleration in m/s^2.
+        gravity_m_s2: f64,
+    },
+    /// Error control that allows errors of the size of the cable.
+    #[error(
+        "cable {cable:?}: the tolerance of its integrator is {tolerance_m} m, of a cable that is {length_m:.4} m long: it is an error of positions in m"
+    )]
+    LargeTolerance {
+        /// Name of the cable.
+        cable: String,
+        /// Tolerance in m.
+        tolerance_m: f64,
+        /// Unstretched length in m.
+        length_m: f64,
+    },
+    /// A reel whose eye nothing holds.
+    #[error(
+        "cable {cable:?}: nothing holds the eye of its reel at {arc_length_m:.4} m, which moves with what it pays out: fix that end, or attach it"
+    )]
+    FreeEye {
+        /// Name of the cable.
+        cable: String,
+        /// Arc length of the eye in m.
+        arc_length_m: f64,
+    },
     /// It is several times as long as drawn.
     #[error(
         "cable {cable:?}: it is {length_m:.4} m long and drawn over {drawn_m:.4} m, {percent:.0} % of slack: its length is in m; was a share meant?",

@@ -16,13 +16,16 @@
 //! 113 m/s (Barrow Island, 1996). A curve of which all secants are below a thirtieth of EA, up to
 //! strains that only rubber bears, has its strains in percent: rubber's own secants fall to a
 //! fifth. The largest coefficients of dry friction are those of racing tyres, 1.7. Only rubber, in
-//! which waves run at up to 200 m/s, breaks above a strain of 1.
+//! which waves run at up to 200 m/s, breaks above a strain of 1. A radius of contact of ten diameters
+//! is more than any sheath.
 
 use super::Warning;
 use crate::effect::{AxialLaw, Contact, Damping, Drag, Effects};
+use crate::integrate::StepControl;
 use crate::scales::watch::{
-    FASTEST, FASTEST_CURRENT, FASTEST_WIND, LEAST_LIQUID, LIGHTEST, MOST_FRICTION, MOST_STRETCH, RUBBER, SLACK,
-    SLENDERNESS, SLOWEST, SLOWEST_STRAIN, SOFTEST, SOFTEST_CURVE, STRETCHY, THICKEST,
+    FASTEST, FASTEST_CURRENT, FASTEST_WIND, LARGE_TOLERANCE, LEAST_LIQUID, LIGHTEST, MOST_FRICTION, MOST_STRETCH,
+    MOST_WIDE, RUBBER, SHEATH, SLACK, SLENDERNESS, SLOWEST, SLOWEST_STRAIN, SOFTEST, SOFTEST_CURVE, STRETCHY,
+    STRONGEST_GRAVITY, THICKEST, WIDE_SHARE,
 };
 use crate::section::Section;
 use crate::strength::Strength;
@@ -56,14 +59,38 @@ pub fn of_effects(cable: &str, effects: &Effects, axial_stiffness_n: f64) -> imp
     let damping = effects.damping.iter().flat_map(move |own| damping(cable, own));
     let drag = effects.drag.iter().flat_map(move |own| drag(cable, own));
     let curve = effects.axial_law.as_ref().and_then(|law| curve(cable, law, axial_stiffness_n));
-    let contact = effects.contact.as_ref().and_then(|own| friction(cable, own));
+    let contact = effects.contact.as_ref().and_then(|own| friction(cable, own.friction));
     damping.chain(drag).chain(curve).chain(contact)
 }
 
 /// Returns the warning about a coefficient of friction in percent, or an angle in degrees.
-fn friction(cable: &str, contact: &Contact) -> Option<Warning> {
-    let friction = contact.friction;
+pub(super) fn friction(cable: &str, friction: f64) -> Option<Warning> {
     (friction > MOST_FRICTION).then(|| Warning::RoughContact { cable: cable.to_string(), friction })
+}
+
+/// Returns the warning about a radius of contact in mm, of a cable of a length in m.
+pub fn contact_radius(cable: &str, contact: Option<&Contact>, section: &Section, length_m: f64) -> Option<Warning> {
+    let (radius_m, diameter_m) = (contact?.radius?, section.diameter);
+    let thick = 2.0 * radius_m > MOST_WIDE.min(WIDE_SHARE * length_m)
+        || diameter_m.is_some_and(|diameter| radius_m > SHEATH * diameter);
+    thick.then(|| Warning::ThickContact { cable: cable.to_string(), radius_m, length_m, diameter_m })
+}
+
+/// Returns the warning about gravity (m/s^2) in mm/s^2.
+pub fn gravity(cable: &str, gravity_m_s2: f64) -> Option<Warning> {
+    (gravity_m_s2 > STRONGEST_GRAVITY).then(|| Warning::StrongGravity { cable: cable.to_string(), gravity_m_s2 })
+}
+
+/// Returns the warning about error control that is none, of a cable of a length in m.
+pub fn tolerance(cable: &str, control: StepControl, length_m: f64) -> Option<Warning> {
+    let (StepControl::Tolerance(tolerance_m)
+    | StepControl::ToleranceOf(tolerance_m, _)
+    | StepControl::Adaptive(tolerance_m)) = control
+    else {
+        return None;
+    };
+    let large = tolerance_m > LARGE_TOLERANCE * length_m;
+    large.then(|| Warning::LargeTolerance { cable: cable.to_string(), tolerance_m, length_m })
 }
 
 /// Returns the warning about a breaking strain in percent.

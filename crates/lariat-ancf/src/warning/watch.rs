@@ -16,6 +16,7 @@ use crate::at::At;
 use crate::cable::Cable;
 use crate::effect::AxialLaw;
 use crate::integrate::{Fidelity, OneStep};
+use crate::reel::Feed;
 use crate::scales::watch::{
     BREAKING, BREAKS, DEPTH, ELONGATION, ERROR, LARGEST_RATIO, MOST, MOTION, NOISE, REEL, ROUNDING, STRAIGHT, STRAIN,
     TURN,
@@ -29,7 +30,7 @@ type Law = fn(&Watch, &Cable, Option<f64>) -> Option<Warning>;
 
 /// Laws in the order of warnings; the flag says that one holds at every time, not for the whole run
 /// only.
-const LAWS: [(Law, bool); 32] = [
+const LAWS: [(Law, bool); 34] = [
     (|watch, cable, _| watch.contacts.starts_inside(cable), true),
     (Watch::strain, true),
     (Watch::mesh, true),
@@ -57,6 +58,8 @@ const LAWS: [(Law, bool); 32] = [
     (|_, cable, _| untouched(cable), true),
     (|watch, cable, _| watch.layers.moment(cable), true),
     (|_, cable, _| slow_reel(cable), true),
+    (|_, cable, _| free_eye(cable), true),
+    (|_, cable, _| rough_obstacle(cable), true),
     (|watch, cable, error| watch.layers.kink(cable).filter(|_| error.is_none()), true),
     (Watch::green_strain, true),
     (|watch, cable, _| watch.contacts.facets(cable), true),
@@ -276,6 +279,26 @@ impl Watch {
     }
 }
 
+/// Whether nothing holds the end at which a reel pays out.
+fn free_eye(cable: &Cable) -> Option<Warning> {
+    let ends = [(At::Start, 0), (At::End, cable.nodes() - 1)];
+    let reeled = ends.into_iter().filter(|(at, _)| {
+        // wheels hold the others
+        cable.reel_description(*at).is_some_and(|reel| matches!(reel.feed, Feed::Drum | Feed::Coil | Feed::Bag))
+    });
+    let is_free = |node: usize| cable.model.support(node).is_none_or(|support| !support.holds_position());
+    let (at, _) = reeled.into_iter().find(|(_, node)| is_free(*node))?;
+    let arc_length_m = if at == At::Start { 0.0 } else { cable.length() };
+    Some(Warning::FreeEye { cable: cable.name().to_string(), arc_length_m })
+}
+
+/// Whether an obstacle has a coefficient of friction that no materials have.
+fn rough_obstacle(cable: &Cable) -> Option<Warning> {
+    cable.effects().contact?;
+    let friction = cable.obstacles().iter().map(|obstacle| obstacle.friction).fold(0.0, f64::max);
+    sizes::friction(cable.name(), friction)
+}
+
 /// Whether a table of rates asks for more than its acceleration gives.
 fn slow_reel(cable: &Cable) -> Option<Warning> {
     let reels = [At::Start, At::End].into_iter().filter_map(|at| cable.reel_description(at));
@@ -423,8 +446,15 @@ impl Cable {
         let thick = thickest.and_then(|e| sizes::elements(name, &e.section, length, e.length));
         // of a cable with a curve it is the same everywhere
         let stiffness = self.elements()[0].section.axial_stiffness;
-        let strength = sizes::strength(name, &self.strength(), &self.elements()[0].section);
-        shapes.chain(slack).chain(thick).chain(sizes::of_effects(name, self.effects(), stiffness)).chain(strength)
+        let (first, contact) = (&self.elements()[0].section, self.effects().contact.as_ref());
+        let others = [
+            sizes::strength(name, &self.strength(), first),
+            sizes::contact_radius(name, contact, first, length),
+            sizes::gravity(name, self.gravity().norm()),
+            sizes::tolerance(name, self.integrator().control, length),
+        ];
+        let of_effects = sizes::of_effects(name, self.effects(), stiffness);
+        shapes.chain(slack).chain(thick).chain(of_effects).chain(others.into_iter().flatten())
     }
 
     /// Lets the cable read itself after each of its host steps, or no longer:

@@ -1,8 +1,9 @@
-//! The names that a warning has for what a user sets, in the interface that the user writes.
+//! The names that warnings and errors have for what a user sets, in the interface that the user writes.
 //!
-//! The text of a warning names them as Rust does, in backticks: `elements(24)`. The table `NAMES`
+//! Their texts name them as Rust does, in backticks: `elements(24)`. The table `NAMES`
 //! says how scenes, Python and Bevy write each, and [`Interface::text`] puts that in their place: a
-//! text is written once.
+//! text is written once. The handles of Rapier in errors are written as Python does, too; Bevy has
+//! entities in their place.
 //!
 //! # Alternatives considered
 //!
@@ -28,7 +29,7 @@ pub enum Interface {
 
 /// By the name in Rust, without arguments, those of scenes, of Python and of Bevy: `{0}` is the
 /// first argument.
-const NAMES: [(&str, [&str; 3]); 16] = [
+const NAMES: [(&str, [&str; 3]); 21] = [
     ("elements", ["elements = {0}", "elements={0}", "elements({0})"]),
     (
         "elements.finest",
@@ -39,11 +40,17 @@ const NAMES: [(&str, [&str; 3]); 16] = [
         ],
     ),
     ("Fidelity::Game", ["fidelity = \"game\"", "fidelity=\"game\"", "Fidelity::Game"]),
-    ("StepControl::MaxStep", ["integrator.max_step = {0}", "Integrator(max_step={0})", "StepControl::MaxStep({0})"]),
-    ("StepControl::Tolerance", ["integrator.tolerance", "Integrator(tolerance=...)", "StepControl::Tolerance"]),
+    (
+        "StepControl::MaxStep",
+        ["integrator.max_step = {0}", "Integrator(max_step={0})", "lariat_ancf::StepControl::MaxStep({0})"],
+    ),
+    (
+        "StepControl::Tolerance",
+        ["integrator.tolerance", "Integrator(tolerance=...)", "lariat_ancf::StepControl::Tolerance"],
+    ),
     ("GravityScale", ["gravity_scale = {0}", "GravityScale({0})", "GravityScale::new({0})"]),
     ("Contact", ["contact", "lariat.Contact", "Contact"]),
-    ("Contact::stiffness", ["contact.stiffness", "Contact(stiffness=...)", "Contact::stiffness"]),
+    ("Contact::stiffness", ["contact.stiffness", "Contact(stiffness=...)", "lariat_ancf::Contact::stiffness"]),
     ("AxialLaw::Hooke", ["axial_law = \"hooke\"", "AxialLaw(\"hooke\")", "AxialLaw::hooke()"]),
     ("AxialLaw::Green", ["axial_law = \"green\"", "AxialLaw(\"green\")", "AxialLaw::green()"]),
     (
@@ -54,6 +61,11 @@ const NAMES: [(&str, [&str; 3]); 16] = [
     ("CableSet::add_kink", ["kinks", "World.add_kink", "KinkAlong"]),
     ("CableSet::move_bodies", ["a motion without jumps", "World.move_bodies", "Cables::move_bodies"]),
     ("equilibrium_among", ["initial = \"equilibrium\"", "World.equilibrium", "Cables::equilibrium"]),
+    ("CableBuilder::node_at", ["a node there", "Cable(nodes_at=[...])", "Cable::node_at"]),
+    ("Gap", ["gap", "gap=...", "Gap"]),
+    ("Obstacle::moving", ["the velocity of its body", "Obstacle(velocity=...)", "a kinematic body"]),
+    ("Reel::max_force", ["reel.max_force", "Reel(max_force=...)", "Reel::max_force"]),
+    ("Island::step", ["a scene with bodies", "World.step", "CableStep"]),
     ("Settings::rapier_steps", ["dt", "World(rapier_steps=...)", "Settings::rapier_steps"]),
 ];
 
@@ -67,15 +79,16 @@ const POINTS: [(&str, [&str; 3]); 5] = [
 ];
 
 impl Interface {
-    /// Returns the text of a warning with the names of this interface.
-    pub fn text(self, warning: &impl fmt::Display) -> String {
-        let text = warning.to_string();
+    /// Returns the text of a warning or of an error with the names of this interface.
+    pub fn text(self, told: &impl fmt::Display) -> String {
+        let text = told.to_string();
         let column = match self {
             Interface::Rust => return text,
             Interface::Scene => 0,
             Interface::Python => 1,
             Interface::Bevy => 2,
         };
+        let text = if self == Interface::Python { as_python_writes(&text) } else { text };
         let mut rest = text.as_str();
         let mut translated = String::new();
         while let Some((before, after)) = rest.split_once('`') {
@@ -116,6 +129,21 @@ fn parts(code: &str) -> (String, Vec<String>) {
     (name, arguments.into_iter().map(|argument| argument.trim().to_string()).collect())
 }
 
+/// Returns a text in which the handles of Rapier are those of Python, `RigidBodyHandle(index=0,
+/// generation=0)`.
+fn as_python_writes(text: &str) -> String {
+    let mut parts = text.split("(Index { index: ");
+    let mut written = parts.next().unwrap_or_default().to_string();
+    for part in parts {
+        let handle = part.split_once(" })").and_then(|(inner, rest)| Some((inner.split_once(", generation: ")?, rest)));
+        written += &match handle {
+            Some(((index, generation), rest)) => format!("(index={index}, generation={generation}){rest}"),
+            None => format!("(Index {{ index: {part}"),
+        };
+    }
+    written
+}
+
 /// Returns what a column of the table has for what Rust writes.
 fn translate(code: &str, column: usize) -> Option<String> {
     let (name, arguments) = parts(code);
@@ -149,6 +177,26 @@ mod tests {
         }
         // names of scenes are in scenes alone
         assert!(!include_str!("mod.rs").contains("elements = {") && !include_str!("mod.rs").contains("[cable"));
+    }
+
+    /// Errors have few names in backticks; those of rules of the mechanics are the same everywhere.
+    #[test]
+    fn every_name_of_an_error_is_in_the_table() {
+        let texts = [include_str!("../error/mod.rs"), include_str!("../error/failure.rs")];
+        let own: Vec<String> = texts.into_iter().flat_map(names).collect();
+        assert!(own.len() > 3, "{own:?}");
+        for name in own.iter().filter(|name| !["projected", "exact", "mean"].contains(&name.as_str())) {
+            assert!(NAMES.iter().any(|(known, _)| known == name), "{name}");
+        }
+    }
+
+    #[test]
+    fn handles_are_written_as_python_does() {
+        let text = "no body RigidBodyHandle(Index { index: 3, generation: 1 }) in this world, nor `Gap`";
+        let wanted = "no body RigidBodyHandle(index=3, generation=1) in this world, nor `gap=...`";
+        assert_eq!(Interface::Python.text(&text), wanted);
+        assert_eq!(Interface::Python.text(&"Index { index: 3"), "Index { index: 3");
+        assert_eq!(Interface::Python.text(&"a(Index { index: 3"), "a(Index { index: 3");
     }
 
     #[test]

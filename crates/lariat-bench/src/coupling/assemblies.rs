@@ -15,6 +15,8 @@ use std::time::Instant;
 const BOXES: usize = 500;
 /// Host steps of a run.
 const STEPS: usize = 420;
+/// Numbers of threads, as far as the machine has them.
+const THREADS: [usize; 5] = [1, 2, 4, 8, 16];
 /// How often a run of the pile is repeated; the smallest time counts.
 const REPEATS: usize = 3;
 
@@ -212,6 +214,17 @@ pub fn table(progress: &mut dyn FnMut(&str)) -> Result<Table, Error> {
     for cables in [0, 1, 10, 50] {
         let times = best(cables, Stepping::WithSet)?;
         row(format!("{BOXES} boxes, {cables} cables"), &times, STEPS / 2, Some(&alone));
+    }
+    let most = std::thread::available_parallelism().map_or(1, usize::from);
+    for (cables, threads) in [10, 50].into_iter().flat_map(|cables| THREADS.map(|threads| (cables, threads))) {
+        if threads > most {
+            continue;
+        }
+        let pool =
+            rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| Error::Threads(e.to_string()))?;
+        let times = pool.install(|| best(cables, Stepping::WithSet))?;
+        let name = format!("{BOXES} boxes, {cables} cables, {threads} thread{}", if threads == 1 { "" } else { "s" });
+        row(name, &times, STEPS / 2, Some(&alone));
     }
     Ok(Table { name: "coupling_assemblies", columns: columns(), rows })
 }

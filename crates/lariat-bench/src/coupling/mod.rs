@@ -112,7 +112,8 @@ pub fn measure(progress: &mut dyn FnMut(&str)) -> Result<(String, Table), Error>
          500 awake boxes of 10 kg that has settled; slack cables of 10 elements lead from fixed points to boxes on its top. The times are \
          the mean and the largest of host steps, CPU time of all threads, and the mean of wall time; of the pile, the run of three with the \
          smallest mean. Rapier collects all contacts anew in a step for which the host took any body to change it, as a cable must: the row \
-         *one box changed* is that cost without a cable. Counts are per host step, of all cables.",
+         *one box changed* is that cost without a cable. Rows without a number of threads are of as many as the machine has; work that is too \
+         little to share stays on one. Counts are per host step, of all cables.",
     );
     assemblies.excerpt(assemblies::table(progress)?);
     let mut wrong = Section::new("Scenes that version 0.1 got wrong");

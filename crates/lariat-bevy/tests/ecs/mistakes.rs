@@ -276,7 +276,7 @@ const MISTAKES: &[Mistake] = &[
             let other = world.spawn(Cable::steel_rope(0.008).between([1.0, -2.0, 0.0], [2.0, -2.0, 0.0])).id();
             world.spawn(Junction::between((rope, At::End), (other, At::Start)));
         },
-        &["JunctionFailed", "1.000e0 m from what it is to be attached to", "(see Gap)"],
+        &["JunctionFailed", "1.000e0 m from what it is to be attached to", "(`Gap`)"],
     ),
     (
         "an attachment to a body that was despawned",
@@ -286,6 +286,14 @@ const MISTAKES: &[Mistake] = &[
             world.despawn(load);
         },
         &["AttachmentFailed", "has no body", "despawned"],
+    ),
+    (
+        "an anchor apart from the rope",
+        |world| {
+            let [rope, load] = above(world, steel());
+            world.spawn(Attachment::ball(rope, At::End).to(load).at([0.0, 1.0, 0.0]));
+        },
+        &["AttachmentFailed", "from what it is to be attached to", "`Gap`", "axes of their body"],
     ),
     (
         "a sheave between ends that nothing holds",

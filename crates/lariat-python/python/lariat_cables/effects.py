@@ -255,9 +255,13 @@ def collect(effects: Effects) -> dict[str, Any]:
             else:
                 plain[key] = value
     else:
+        if isinstance(effects, str):
+            raise TypeError(f"expected an effect of lariat, or a list of them, got {effects!r}")
         items = [effects] if hasattr(effects, "key") else list(effects)
         plain = {}
     for effect in items:
+        if isinstance(effect, type) and hasattr(effect, "key"):
+            raise TypeError(f"expected an effect, got the class {effect.__name__}: write {effect.__name__}(...)")
         if not hasattr(effect, "key"):
             raise TypeError(f"expected an effect of lariat, got {effect!r}")
         if effect.key == "line_load":

@@ -106,6 +106,8 @@ class Exchange:
     """
 
     def __init__(self, coupling: CoSimulation) -> None:
+        if not isinstance(coupling, CoSimulation):
+            raise TypeError(f"expected a CoSimulation, which says where the ends of a cable are, got {type(coupling).__name__}")
         self.coupling = coupling
         self._forces: Array | None = None
         self._mobility: Array | None = None

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lariat_cables import _lariat
 from lariat_cables._lariat import Cable, CoSimulation, World
+from lariat_cables.errors import Error
 from lariat_cables.scenes import Probe
 
 Array = NDArray[np.float64]
@@ -158,8 +159,10 @@ class Recording:
         of the files of the last recording or run.
 
         Raises ``InTheWayError`` for a file that Lariat did not write, or that was changed since, and ``BusyError`` while another
-        program writes there.
+        program writes there; ``Error`` if nothing was recorded.
         """
+        if len(self) == 0:
+            raise Error("nothing was recorded: call take() after each step")
         files = [("view.html", self.page())]
         for kind, tracks in (("cables", self.cables), ("bodies", self.bodies)):
             for file, track in zip(_files(kind, tracks), tracks.values()):

@@ -1,7 +1,7 @@
 //! Several cables in one call: stepped on all threads or in one system, and read as arrays.
 
 use super::{Cable, tell};
-use crate::convert::result;
+use crate::convert::{Count, result};
 use crate::error::{Raise, raise};
 use crate::shared::{Shared, repeat_for_a_while};
 use lariat_ancf as ancf;
@@ -54,15 +54,15 @@ pub fn states<'py>(py: Python<'py>, cables: Vec<Bound<'py, Cable>>) -> PyResult<
 /// StepFailedError, that of the first cable that cannot step, after all others have made that step;
 /// DuplicateCableError, InWorldError.
 #[pyfunction]
-#[pyo3(signature = (cables, dt, *, steps=1))]
+#[pyo3(signature = (cables, dt, *, steps=Count(1)), text_signature = "(cables, dt, *, steps=1)")]
 pub fn step_all<'py>(
     py: Python<'py>,
     cables: Vec<Bound<'py, Cable>>,
     dt: f64,
-    steps: usize,
+    steps: Count,
 ) -> PyResult<Bound<'py, PyAny>> {
     let own = apart(&cables)?;
-    let mut left = steps;
+    let mut left = steps.0;
     while left > 0 {
         let outcome = py.detach(|| {
             let mut guards: Vec<_> = own.iter().map(|(cable, _)| cable.lock()).collect();
@@ -85,10 +85,10 @@ pub fn step_all<'py>(
 /// for all. Raises DuplicateCableError, EmptyIslandError, TimeMismatchError, StepFailedError; the
 /// steps before a failed one are made.
 #[pyfunction]
-#[pyo3(signature = (cables, dt, *, steps=1))]
-pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: usize) -> PyResult<()> {
+#[pyo3(signature = (cables, dt, *, steps=Count(1)), text_signature = "(cables, dt, *, steps=1)")]
+pub fn step_together(py: Python<'_>, cables: Vec<Bound<'_, Cable>>, dt: f64, steps: Count) -> PyResult<()> {
     let own = apart(&cables)?;
-    let (mut left, mut island) = (steps, ancf::island::Island::default());
+    let (mut left, mut island) = (steps.0, ancf::island::Island::default());
     while left > 0 {
         let outcome = py.detach(|| {
             let mut guards: Vec<_> = own.iter().map(|(cable, place)| (cable.lock(), *place)).collect();

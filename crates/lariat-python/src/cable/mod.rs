@@ -6,7 +6,7 @@ pub mod contact;
 mod read;
 mod reel;
 
-use crate::convert::{Array, Place, Places, Vector, data};
+use crate::convert::{Array, Count, Numbers, Place, Places, Vector, data};
 use crate::error::{Raise, raise};
 use crate::integrator::{Choice, fidelity};
 use crate::saved;
@@ -203,7 +203,7 @@ impl Cable {
         length: Option<f64>,
         pretension: Option<f64>,
         sag: Option<f64>,
-        elements: Option<usize>,
+        elements: Option<Count>,
         finest: Option<f64>,
         finest_at: Option<Places>,
         name: &str,
@@ -217,7 +217,7 @@ impl Cable {
         fix: Option<Places>,
         clamp: Option<Places>,
         clamp_along: Option<Vec<(Place, Vector)>>,
-        nodes_at: Option<Vec<f64>>,
+        nodes_at: Option<Numbers>,
         effects: Option<&Bound<'_, PyAny>>,
         damped_as: Option<&str>,
     ) -> PyResult<Self> {
@@ -236,7 +236,7 @@ impl Cable {
             _ => return Err(PyTypeError::new_err("give one of length, pretension and sag")),
         };
         if let Some(elements) = elements {
-            builder = builder.elements(elements);
+            builder = builder.elements(elements.0);
         }
         match (finest, finest_at) {
             (None, None) => {}
@@ -269,7 +269,7 @@ impl Cable {
         builder = clamp.unwrap_or_default().0.into_iter().fold(builder, |builder, at| builder.clamp(at));
         let along = clamp_along.unwrap_or_default().into_iter();
         builder = along.fold(builder, |builder, (at, direction)| builder.clamp_along(at.0, direction.0));
-        builder = nodes_at.unwrap_or_default().into_iter().fold(builder, |builder, s| builder.node_at(s));
+        builder = nodes_at.map_or(Vec::new(), |at| at.0).into_iter().fold(builder, |builder, s| builder.node_at(s));
         if let Some(effects) = effects {
             builder = builder.effects(self::effects(effects)?);
         }
@@ -286,19 +286,19 @@ impl Cable {
     /// ``errors.ResultWarning``; ``warnings()`` has all. Raises InvalidValueError, AttachedError,
     /// InWorldError, and StepFailedError, after which the cable is as it was before the step that
     /// failed.
-    #[pyo3(signature = (dt, *, steps=1))]
-    fn step(&self, py: Python<'_>, dt: f64, steps: usize) -> PyResult<()> {
-        self.own("step by itself")?.repeat(py, steps, |cable| cable.step(dt))?.map_err(raise)?;
+    #[pyo3(signature = (dt, *, steps=Count(1)), text_signature = "($self, dt, *, steps=1)")]
+    fn step(&self, py: Python<'_>, dt: f64, steps: Count) -> PyResult<()> {
+        self.own("step by itself")?.repeat(py, steps.0, |cable| cable.step(dt))?.map_err(raise)?;
         self.tell(py)
     }
 
     /// Moves the cable to static equilibrium. ``tolerance``: largest residual force over the sum of
     /// the loads. Raises NoEquilibriumError, after which the cable is as it was; AttachedError,
     /// InWorldError.
-    #[pyo3(signature = (*, tolerance=1e-9, iterations=400))]
-    fn equilibrium<'py>(&self, py: Python<'py>, tolerance: f64, iterations: usize) -> PyResult<Bound<'py, PyAny>> {
-        let options = EquilibriumOptions { tolerance, iterations };
-        let own = self.own("find its equilibrium by itself")?;
+    #[pyo3(signature = (*, tolerance=1e-9, iterations=Count(400)), text_signature = "($self, *, tolerance=1e-9, iterations=400)")]
+    fn equilibrium<'py>(&self, py: Python<'py>, tolerance: f64, iterations: Count) -> PyResult<Bound<'py, PyAny>> {
+        let options = EquilibriumOptions { tolerance, iterations: iterations.0 };
+        let own = self.own("find its equilibrium by itself (`World.equilibrium` does)")?;
         let report = own.compute(py, |cable| cable.equilibrium_with(options)).map_err(raise)?;
         crate::convert::result(py, "Equilibrium", (report.iterations, report.residual, report.stable))
     }

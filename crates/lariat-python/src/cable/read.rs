@@ -1,7 +1,7 @@
 //! Reading a cable.
 
 use super::Cable;
-use crate::convert::{Array, Place, Places, node, object, result, table, vector, vectors};
+use crate::convert::{Array, Count, Place, Places, node, object, result, table, vector, vectors};
 use crate::integrator::Integrator;
 use crate::section::Section;
 use crate::told::unexplained;
@@ -225,9 +225,9 @@ impl Cable {
 
     /// Returns the damping that damps the ``mode``-th frequency, from 1, by this ratio of critical.
     /// Raises OutOfRangeError.
-    fn damping_at_mode<'py>(&self, py: Python<'py>, ratio: f64, mode: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn damping_at_mode<'py>(&self, py: Python<'py>, ratio: f64, mode: Count) -> PyResult<Bound<'py, PyAny>> {
         let mut cable = self.copied(py)?;
-        let damping = py.detach(|| cable.damping_at_mode(ratio, mode)).map_err(crate::error::raise)?;
+        let damping = py.detach(|| cable.damping_at_mode(ratio, mode.0)).map_err(crate::error::raise)?;
         py.import("lariat_cables.effects")?.getattr("Damping")?.call1((damping.axial, damping.bending))
     }
 

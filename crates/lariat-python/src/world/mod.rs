@@ -13,7 +13,7 @@ mod wheels;
 pub use scene::load_scene;
 
 use crate::cable::Cable;
-use crate::convert::{Place, Vector, result, vector};
+use crate::convert::{Count, Place, Vector, result, vector};
 use crate::error::{Raise, raise};
 use crate::integrator::fidelity;
 use crate::saved;
@@ -97,15 +97,15 @@ impl Contents {
 #[pymethods]
 impl World {
     #[new]
-    #[pyo3(signature = (gravity=None, *, dt=1.0/60.0, fidelity="game", rapier_steps=1, max_rapier_steps=32, sleep_speed=2e-3,
-        max_iterations=None, max_time=None, warn_level=None))]
+    #[pyo3(signature = (gravity=None, *, dt=1.0/60.0, fidelity="game", rapier_steps=Count(1), max_rapier_steps=Count(32), sleep_speed=2e-3,
+        max_iterations=None, max_time=None, warn_level=None), text_signature = "(gravity=None, *, dt=..., fidelity='game', rapier_steps=1, max_rapier_steps=32, sleep_speed=2e-3, max_iterations=None, max_time=None, warn_level=None)")]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn new(
         gravity: Option<Vector>,
         dt: f64,
         fidelity: &str,
-        rapier_steps: u32,
-        max_rapier_steps: u32,
+        rapier_steps: Count,
+        max_rapier_steps: Count,
         sleep_speed: f64,
         max_iterations: Option<u64>,
         max_time: Option<f64>,
@@ -118,6 +118,8 @@ impl World {
         if !(sleep_speed.is_finite() && sleep_speed >= 0.0) {
             return Err(bodies::invalid("sleep_speed (m/s)", sleep_speed, ">= 0"));
         }
+        let [rapier_steps, max_rapier_steps] =
+            [rapier_steps, max_rapier_steps].map(|count| u32::try_from(count.0).unwrap_or(u32::MAX));
         if rapier_steps == 0 {
             return Err(bodies::invalid("rapier_steps", 0.0, "> 0"));
         }

@@ -3,7 +3,7 @@
 use super::bodies::{Handle, invalid};
 use super::{Contents, World, numbered};
 use crate::cable::Cable;
-use crate::convert::{Place, Vector, result};
+use crate::convert::{Count, Place, Vector, result};
 use crate::error::{Raise, raise};
 use crate::integrator::fidelity;
 use crate::section::Section;
@@ -57,12 +57,12 @@ impl World {
         slack: f64,
         length: Option<f64>,
         strength: Option<f64>,
-        elements: Option<usize>,
+        elements: Option<Count>,
         fidelity: Option<&str>,
         name: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let fidelity = fidelity.map(self::fidelity).transpose()?;
-        let elements = elements.unwrap_or(Fidelity::Game.elements());
+        let elements = elements.map_or(Fidelity::Game.elements(), |count| count.0);
         let rope =
             Rope { slack, unstretched_length: length, strength, elements, fidelity, ..Rope::new(section.0).name(name) };
         let ends = [(start, start_body), (end, end_body)]

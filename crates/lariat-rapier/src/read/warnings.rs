@@ -20,7 +20,7 @@ use crate::handle::{AttachmentHandle, CableHandle};
 use crate::mechanism;
 use crate::read::inside::{deepest_beside, held_beside};
 use crate::scales::HOST_ROUNDING;
-use crate::scales::read::{FAR_ANCHOR, JOLT};
+use crate::scales::read::{FAR_ANCHOR, JOLT, LIGHT_WATER};
 use lariat_ancf::contact::LARGEST_RESTITUTION;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::warning::fold::{self, Judged, Sign};
@@ -170,6 +170,14 @@ pub enum Warning {
         /// `IntegrationParameters::length_unit`.
         unit: f64,
     },
+    /// Water that is lighter than any liquid.
+    #[error(
+        "the water has a density of {density} kg/m^3, less than that of any liquid: it is in kg/m^3; was {density} g/cm^3 or t/m^3 meant?"
+    )]
+    LightWater {
+        /// Density in kg/m^3.
+        density: f64,
+    },
     /// A cable that touches bodies would bounce off a collider with more of its velocity than it
     /// can.
     #[error(
@@ -200,6 +208,7 @@ impl Warning {
             | Warning::NoMass { .. }
             | Warning::LostSpin { .. }
             | Warning::LengthUnit { .. }
+            | Warning::LightWater { .. }
             | Warning::HighRestitution { .. } => Level::Setup,
             Warning::OpenGap { .. } | Warning::Unsettled { .. } => Level::Wrong,
         }
@@ -227,7 +236,7 @@ impl Warning {
             | Warning::NoMass { attachment, .. }
             | Warning::LostSpin { attachment, .. }
             | Warning::VelocityJump { attachment, .. } => Some(contents.attachment(*attachment).ok()?.cable),
-            Warning::LengthUnit { .. } => None,
+            Warning::LengthUnit { .. } | Warning::LightWater { .. } => None,
         }
     }
 }
@@ -248,6 +257,7 @@ impl Judged for Warning {
             | Warning::NoMass { .. }
             | Warning::LostSpin { .. }
             | Warning::LengthUnit { .. }
+            | Warning::LightWater { .. }
             | Warning::HighRestitution { .. } => None,
         }
     }
@@ -277,6 +287,7 @@ impl Judged for Warning {
             Warning::HighRestitution { restitution, .. } => *restitution,
             Warning::FarAnchor { distance, radius, .. } => distance / radius,
             Warning::LengthUnit { unit } => *unit,
+            Warning::LightWater { density } => -density,
             Warning::LostSpin { asked, .. } => *asked,
             Warning::MixedJoints { .. } | Warning::NoMass { .. } => 0.0,
         }
@@ -299,6 +310,7 @@ pub(crate) fn told(contents: &Contents, world: &PhysicsWorld, asked: Option<Leve
 fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
     let mut warnings = Vec::new();
     warnings.extend(length_unit(world));
+    warnings.extend(light_water(contents));
     for (cable, slot) in contents.cables.iter() {
         let handle = CableHandle(cable as u32);
         warnings.extend(slot.cable.warnings().into_iter().map(|warning| Warning::Cable { cable: handle, warning }));
@@ -325,6 +337,12 @@ fn all(contents: &Contents, world: &PhysicsWorld) -> Vec<Warning> {
 fn length_unit(world: &PhysicsWorld) -> Option<Warning> {
     let unit = f64::from(world.integration_parameters.length_unit);
     (unit != 1.0).then_some(Warning::LengthUnit { unit })
+}
+
+/// Returns whether the water of a set is lighter than any liquid.
+fn light_water(contents: &Contents) -> Option<Warning> {
+    let density = contents.water.as_ref()?.water().density;
+    (density < LIGHT_WATER).then_some(Warning::LightWater { density })
 }
 
 /// Returns what is to be said about a cable where it is, before it is stepped.

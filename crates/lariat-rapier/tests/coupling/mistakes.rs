@@ -238,12 +238,12 @@ fn the_first_line_says_the_cause() {
     assert!(yard.set.warnings(&yard.world).is_empty(), "{:?}", yard.set.warnings(&yard.world));
 }
 
-/// What a warning names in backticks has its words in scenes and in Python.
+/// What a warning or an error names in backticks has its words in scenes and in Python.
 ///
 /// *Source.* The contract of `Interface::text`; a world of Rapier has its `length_unit` in every interface.
 #[test]
 fn names_in_warnings_are_those_of_each_interface() {
-    let source = include_str!("../../src/read/warnings.rs");
+    let source = [include_str!("../../src/read/warnings.rs"), include_str!("../../src/error.rs")].concat();
     let code = source.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
     let names: Vec<String> = code.split('`').skip(1).step_by(2).map(|name| format!("`{name}`")).collect();
     assert!(names.len() > 2, "{names:?}");

@@ -4,9 +4,10 @@ use super::common::{add_cube, cable, run, soft};
 use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{
     At, Cable, Contact, Damping, Fidelity, Integrator, Level, Method, Motion, Section, StepControl, Vector3,
-    Warning as CableWarning,
+    Warning as CableWarning, Water,
 };
 use lariat_rapier::rapier::prelude::*;
+use lariat_rapier::water::BodiesInWater;
 use lariat_rapier::{AttachmentKind, CableHandle, CableSet, Event, Gap, Warning};
 
 /// Runs a number of host steps, and returns all of their events.
@@ -339,13 +340,14 @@ fn a_dynamic_body_without_mass_is_told() {
     }
 }
 
-/// An anchor in the axes of the world, and a world in another unit, are told; and neither where they are as they should be.
+/// An anchor in the axes of the world, a world in another unit, and water in t/m^3 are told; and none where they are as they should be.
 #[test]
 fn far_anchors_and_other_units_are_told() {
-    let kinds = |anchor: f64, unit: Real| {
+    let kinds = |anchor: f64, unit: Real, water: Option<f64>| {
         let mut world = PhysicsWorld::new();
         world.integration_parameters.length_unit = unit;
         let mut set = CableSet::new();
+        set.set_water(water.map(|density| BodiesInWater::new(Water::new(density)).unwrap()));
         let rope = set.insert(cable([0.0; 3], [0.0, -2.0, 0.0], soft()).fix(At::Start).build().unwrap());
         let cube = add_cube(&mut world, 10.0, 0.1, [0.0, -2.0 - anchor as Real, 0.0]);
         set.attach(&world, rope, At::End, cube, Vector::new(0.0, anchor as Real, 0.0), AttachmentKind::Ball).unwrap();
@@ -355,13 +357,16 @@ fn far_anchors_and_other_units_are_told() {
                 Some("anchor")
             }
             Warning::LengthUnit { .. } => Some("unit"),
+            Warning::LightWater { .. } => Some("water"),
             _ => None,
         };
         set.warnings(&world).iter().filter_map(kind).collect::<Vec<_>>()
     };
-    assert_eq!(kinds(0.1, 1.0), Vec::<&str>::new());
-    assert_eq!(kinds(0.1, 100.0), ["unit"]);
-    assert_eq!(kinds(2.0, 1.0), ["anchor"]);
+    assert_eq!(kinds(0.1, 1.0, None), Vec::<&str>::new());
+    assert_eq!(kinds(0.1, 1.0, Some(1025.0)), Vec::<&str>::new());
+    assert_eq!(kinds(0.1, 1.0, Some(1.025)), ["water"]);
+    assert_eq!(kinds(0.1, 100.0, None), ["unit"]);
+    assert_eq!(kinds(2.0, 1.0, None), ["anchor"]);
 }
 
 /// Two weights on a rope over a pulley: one that is a mesh of 24 sides is told, a cylinder is not, and neither is a rope that is dragged over a

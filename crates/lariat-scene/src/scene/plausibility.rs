@@ -4,8 +4,7 @@
 //!
 //! A corner of the drawn shape is strained, because the elements beside it are smooth: a node on it turns by half the angle t on each side, and an
 //! element of length h stores about EA h (t/6)^4, one with the corner inside three to four times as much. Limits: a strain of 3e-3 on the mean of all of
-//! the cable, a third of that at which steel ropes break, and a tenth of the energies that the cable starts with otherwise. A radius of contact of
-//! ten diameters is more than any sheath; no hook is three radii of its body away from it. What the mechanics know by themselves is in
+//! the cable, a third of that at which steel ropes break, and a tenth of the energies that the cable starts with otherwise. No hook is three radii of its body away from it. What the mechanics know by themselves is in
 //! `lariat_ancf::warning::sizes`.
 
 use super::attachment::AttachmentScene;
@@ -15,17 +14,13 @@ use super::load::LoadScene;
 use super::{CableScene, Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::warning::sizes;
-use lariat_ancf::{Cable, Flow, Section, Vector3, Water};
+use lariat_ancf::{Cable, Fidelity, Flow, Section, Vector3, Water};
 use std::f64::consts::{PI, TAU};
 
 /// Largest axial strain, on the mean of a cable, that its drawn corners may make.
 const CORNER_STRAIN: f64 = 3e-3;
 /// Largest strain energy of drawn corners over the other energies at the start.
 const CORNER_ENERGY: f64 = 0.1;
-/// Largest diameter of contact over the length of a cable, and in m.
-const CONTACT: [f64; 2] = [0.2, 1.5];
-/// Largest radius of contact over the diameter of the section.
-const SHEATH: f64 = 10.0;
 /// Largest distance of an anchor from the origin of a dynamic body over the radius of its shape.
 const ANCHOR: f64 = 3.0;
 /// Largest size of a body over the length of a wave that it does not disturb (Faltinsen 1990, ch. 3).
@@ -45,8 +40,8 @@ const PASSED: f64 = 0.02;
 impl Scene {
     /// Returns warnings about what is probably not meant, as the scene is written.
     pub fn warnings(&self, purpose: Purpose) -> Vec<Warning> {
-        let mut warnings: Vec<Warning> = self.cables.iter().flat_map(of_cable).map(Warning::Cable).collect();
-        warnings.extend(self.cables.iter().filter_map(thick_contact));
+        let mut warnings: Vec<Warning> =
+            self.cables.iter().flat_map(|cable| of_cable(cable, self.gravity.norm())).map(Warning::Cable).collect();
         warnings.extend(self.far_anchors());
         warnings.extend(self.mixed_joints());
         warnings.extend(self.large_loads());
@@ -335,7 +330,7 @@ fn radius(body: &BodyScene) -> f64 {
 }
 
 /// Returns what the mechanics say about the sizes of a cable.
-fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
+fn of_cable(cable: &CableScene, gravity: f64) -> impl Iterator<Item = lariat_ancf::Warning> {
     let (name, length) = (&cable.name, cable.length);
     let drawn = cable.points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
     let element = match &cable.fine {
@@ -346,21 +341,17 @@ fn of_cable(cable: &CableScene) -> impl Iterator<Item = lariat_ancf::Warning> {
         sizes::warnings(name, section, length).chain(sizes::elements(name, section, length, element)).collect()
     };
     let of_effects = sizes::of_effects(name, &cable.effects, cable.sections.first().axial_stiffness);
-    let strength = sizes::strength(name, &cable.breaking.strength, &cable.sections.first());
-    cable
-        .sections
-        .iter()
-        .flat_map(of_section)
-        .chain(of_effects)
-        .chain(strength)
-        .chain(sizes::slack(name, length, drawn))
-}
-
-/// Returns the warning about a radius of contact in another unit.
-fn thick_contact(cable: &CableScene) -> Option<Warning> {
-    let (length_m, diameter_m) = (cable.length, cable.sections.first().diameter);
-    let radius_m = cable.effects.contact.as_ref()?.radius?;
-    let thick = 2.0 * radius_m > CONTACT[1].min(CONTACT[0] * length_m)
-        || diameter_m.is_some_and(|diameter| radius_m > SHEATH * diameter);
-    thick.then(|| Warning::ThickContact { cable: cable.name.clone(), radius_m, length_m, diameter_m })
+    let (first, contact) = (cable.sections.first(), cable.effects.contact.as_ref());
+    let tolerance = match cable.integrator {
+        Fidelity::Custom(own) => sizes::tolerance(name, own.control, length),
+        _ => None,
+    };
+    let others = [
+        sizes::strength(name, &cable.breaking.strength, &first),
+        sizes::contact_radius(name, contact, &first, length),
+        sizes::gravity(name, gravity),
+        tolerance,
+        sizes::slack(name, length, drawn),
+    ];
+    cable.sections.iter().flat_map(of_section).chain(of_effects).chain(others.into_iter().flatten())
 }

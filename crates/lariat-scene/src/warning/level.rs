@@ -17,7 +17,6 @@ impl Warning {
             | Warning::LeftAsDrawn { .. }
             | Warning::VelocityJump { .. }
             | Warning::DrawnCorner { .. }
-            | Warning::ThickContact { .. }
             | Warning::FarAnchor { .. }
             | Warning::MixedJoints { .. }
             | Warning::ClosingGap { .. }
@@ -57,7 +56,6 @@ impl Warning {
             | Warning::UnstableEquilibrium { cable, .. }
             | Warning::VelocityJump { cable, .. }
             | Warning::DrawnCorner { cable, .. }
-            | Warning::ThickContact { cable, .. }
             | Warning::AddedMassInAir { cable, .. }
             | Warning::FarAnchor { cable, .. }
             | Warning::MixedJoints { cable, .. }
@@ -95,7 +93,7 @@ impl Judged for Warning {
             Warning::OpenGap { .. } | Warning::FarAnchor { .. } | Warning::ClosingGap { .. } => Sign::Gap,
             Warning::VelocityJump { .. } => Sign::Shock,
             Warning::DrawnCorner { .. } => Sign::Corner,
-            Warning::ThickContact { .. } | Warning::LargeLoad { .. } => Sign::Sizes,
+            Warning::LargeLoad { .. } => Sign::Sizes,
             Warning::EnergyMade { .. } => Sign::EnergyMade,
             Warning::EnergyLost { .. } => Sign::EnergyLost,
             Warning::FallsFreely { .. }
@@ -154,7 +152,6 @@ impl Judged for Warning {
             Warning::UnstableEquilibrium { compression, .. } => compression.unwrap_or(0.0),
             Warning::VelocityJump { force_n, .. } => *force_n,
             Warning::DrawnCorner { speed_m_s, .. } => *speed_m_s,
-            Warning::ThickContact { radius_m, .. } => *radius_m,
             Warning::FarAnchor { distance_m, radius_m, .. } => distance_m / radius_m,
             Warning::LargeLoad { force_n, axial_stiffness_n, .. } => force_n / axial_stiffness_n,
             Warning::LargeInWaves { size_m, wave_length_m, .. } => size_m / wave_length_m,

@@ -360,21 +360,6 @@ pub enum Warning {
         /// Speed of the whole cable with that energy in m/s.
         speed_m_s: f64,
     },
-    /// A radius of contact that no cable has.
-    #[error(
-        "cable {cable:?}: the radius of its contact is {radius_m} m, of a cable that is {length_m:.4} m long{}: it is in m; was {radius_m} mm meant?",
-        .diameter_m.map_or(String::new(), |d| format!(" and {d} m thick"))
-    )]
-    ThickContact {
-        /// Name of the cable.
-        cable: String,
-        /// Radius of contact in m.
-        radius_m: f64,
-        /// Unstretched length in m.
-        length_m: f64,
-        /// Outer diameter or side of the section in m, if it has one.
-        diameter_m: Option<f64>,
-    },
     /// An anchor far from all of the shape of its body.
     #[error(
         "attachment {attachment:?}: its anchor is {distance_m:.3e} m from the origin of body {body:?}, whose shape reaches {radius_m:.3e} m: the anchor is in the axes of the body; was a point of the \

@@ -6,9 +6,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The kinds that scenes are there to show, by file; all others tell nothing. Each file says so.
-const MEANT: [(&str, &[&str]); 8] = [
+const MEANT: [(&str, &[&str]); 9] = [
     ("scenes/payload_pendulum", &["coarse_mesh"]),
     ("hard/silent_gpa", &["soft_material"]),
+    ("hard/tolerance_1m_heats", &["large_tolerance"]),
     ("hard/silent_mm", &["stubby"]),
     ("hard/silent_unattached_bob", &["falls_freely", "passes_through"]),
     ("hard/static_stub_inverts", &["stubby"]),

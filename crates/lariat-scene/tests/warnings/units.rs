@@ -104,7 +104,7 @@ fn radius_damping_rotation_and_load_in_other_measures_are_told() {
     };
     let kinds = |text: &str| -> Vec<&str> {
         let kind = |w: &Warning| match w {
-            Warning::ThickContact { radius_m, .. } => {
+            Warning::Cable(CableWarning::ThickContact { radius_m, .. }) => {
                 assert!(w.to_string().contains(&format!("{radius_m} mm meant?")), "{w}");
                 "radius"
             }
