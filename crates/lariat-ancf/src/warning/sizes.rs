@@ -16,8 +16,8 @@
 //! 113 m/s (Barrow Island, 1996). A curve of which all secants are below a thirtieth of EA, up to
 //! strains that only rubber bears, has its strains in percent: rubber's own secants fall to a
 //! fifth. The largest coefficients of dry friction are those of racing tyres, 1.7. Only rubber, in
-//! which waves run at up to 200 m/s, breaks above a strain of 1. A radius of contact of ten diameters
-//! is more than any sheath.
+//! which waves run at up to 200 m/s, breaks above a strain of 1. A radius of contact of ten
+//! diameters is more than any sheath.
 
 use super::Warning;
 use crate::effect::{AxialLaw, Contact, Damping, Drag, Effects};

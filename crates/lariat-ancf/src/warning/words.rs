@@ -1,4 +1,5 @@
-//! The names that warnings and errors have for what a user sets, in the interface that the user writes.
+//! The names that warnings and errors have for what a user sets, in the interface that the user
+//! writes.
 //!
 //! Their texts name them as Rust does, in backticks: `elements(24)`. The table `NAMES`
 //! says how scenes, Python and Bevy write each, and [`Interface::text`] puts that in their place: a

@@ -35,7 +35,7 @@ fn a_rope_that_touches_nothing_costs_little() {
             let radius = f64::min(radius, 0.1 * length / elements as f64);
             let found = tests(vec![up() * 0.1, up() * (0.1 + length)], (elements, radius), Vec::new());
             println!("{length} m, {elements} elements, {radius} m: {found:.1}");
-            assert!((0.5..10.0).contains(&found), "{length} {elements} {radius}: {found}");
+            assert!((0.0..10.0).contains(&found), "{length} {elements} {radius}: {found}");
         }
     }
 }

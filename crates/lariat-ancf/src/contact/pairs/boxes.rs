@@ -15,11 +15,16 @@
 //! so h . D >= 0.76. Points at the distance s along the cable are then at least 0.76 s apart at any
 //! time of the step, and those that count are eight radii apart along it.
 //!
+//! The tree is of boxes that are wider, by what the element moves in eight steps, and by the
+//! directions d of that time: as long as each polygon is in its own, and along its own d, no others
+//! can be near than those that were found then.
+//!
 //! # Validity
 //!
 //! The tree is over elements in their order along the cables, which are near in space where they
 //! are near in order. A test of two of its boxes costs the same whether they are of one element or
-//! of many, so a cable that is near nothing costs some four tests per element.
+//! of many, so a cable that is near nothing costs some four tests per element where the tree is
+//! made, and none while it is kept. What is found near does not depend on when it was made.
 //!
 //! # References
 //!
@@ -28,20 +33,37 @@
 
 use super::chords::Strand;
 use super::strands::Strands;
-use crate::scales::contact::{NEAR_PAIR, STRAIGHT};
+use crate::scales::contact::{KEPT_STEPS, NEAR_PAIR, STAYS_ALONG, STRAIGHT};
+use core::ops::ControlFlow;
 use nalgebra::Vector3;
 
-/// An element with the box that it is in over the step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Boxed {
-    extent: Extent,
-    /// Its direction, if it is straight over the whole step.
-    direction: Option<Vector3<f64>>,
+/// An element of a strand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
     pub strand: usize,
     pub element: usize,
     /// Arc length in m at which it begins.
     pub from: f64,
     pub radius: f64,
+    /// A third of its length in m.
+    third: f64,
+}
+
+/// An element with the box that it stays in.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    place: Place,
+    /// About its polygons, with a margin.
+    extent: Extent,
+    /// The direction along which it stays, if it was straight.
+    direction: Option<Vector3<f64>>,
+}
+
+/// Box and direction of an element over a step.
+#[derive(Clone, Copy, Debug)]
+struct Boxed {
+    extent: Extent,
+    direction: Option<Vector3<f64>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -56,8 +78,26 @@ impl Extent {
         high: Vector3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
     };
 
+    /// Returns the box about two polygons, grown by a margin in m.
+    fn about(polygons: &[Polygon; 2], margin: f64) -> Extent {
+        let (mut low, mut high) = (polygons[0][0], polygons[0][0]);
+        for x in polygons.iter().flatten() {
+            (low, high) = (low.inf(x), high.sup(x));
+        }
+        Extent { low, high }.grown(margin)
+    }
+
+    fn grown(&self, margin: f64) -> Extent {
+        let margin = Vector3::repeat(margin);
+        Extent { low: self.low - margin, high: self.high + margin }
+    }
+
     fn with(&self, other: &Extent) -> Extent {
         Extent { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
+    fn holds(&self, x: &Vector3<f64>) -> bool {
+        (0..3).all(|k| self.low[k] <= x[k] && x[k] <= self.high[k])
     }
 
     fn meets(&self, other: &Extent) -> bool {
@@ -68,67 +108,78 @@ impl Extent {
 /// Buffers of the search for elements.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boxes {
-    pub boxes: Vec<Boxed>,
+    kept: Vec<Kept>,
     /// Those of the tree: the children of number k are 2 k and 2 k + 1, the leaves its last half.
     tree: Vec<Extent>,
     open: Vec<[usize; 2]>,
+    /// Elements that can come near each other while all stay in their boxes.
+    close: Vec<[usize; 2]>,
+    /// What was asked for of this step.
+    now: Vec<Option<Boxed>>,
     /// Elements that can touch: the first of two is the one that keeps their contacts.
-    pub near: Vec<[usize; 2]>,
+    pub near: Vec<[Place; 2]>,
 }
 
 impl Boxes {
     /// Finds the elements that are near each other at some time of the step, and returns the number
     /// of tests.
     pub fn find(&mut self, strands: &Strands<'_, '_>) -> u64 {
-        self.collect(strands);
+        let made = if self.stay(strands) { 0 } else { self.make(strands) };
         self.near.clear();
-        if self.boxes.is_empty() {
+        self.now.clear();
+        self.now.resize(self.kept.len(), None);
+        for k in 0..self.close.len() {
+            let [i, j] = self.close[k];
+            let own = [i, j].map(|i| self.kept[i].place);
+            let meet = self.boxed(strands, i).extent.meets(&self.boxed(strands, j).extent);
+            let may = || strands.coefficients(own[0].strand, own[1].strand).is_some();
+            if meet && may() && !self.is_straight(strands, [i, j]) {
+                let [one, other] = own;
+                self.near.push(if is_first(strands, &one, &other) { own } else { [other, one] });
+            }
+        }
+        let name = |own: &Place| (own.strand, own.element);
+        self.near.sort_unstable_by_key(|[a, b]| (name(a), name(b)));
+        made + self.close.len() as u64
+    }
+
+    /// Returns whether the elements are those of the tree, and each stays in its box and along its
+    /// direction over the step.
+    fn stay(&self, strands: &Strands<'_, '_>) -> bool {
+        let mut known = self.kept.iter();
+        let stays = visit(strands, |strand, place| {
+            let stays = known.next().is_some_and(|own| own.place == place && own.stays(strand));
+            if stays { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        stays.is_continue() && known.next().is_none()
+    }
+
+    /// Makes the tree and finds what may come near; returns the number of tests.
+    fn make(&mut self, strands: &Strands<'_, '_>) -> u64 {
+        self.kept.clear();
+        let kept = &mut self.kept;
+        let _ = visit(strands, |strand, place| {
+            kept.push(Kept::new(strand, place));
+            ControlFlow::Continue(())
+        });
+        self.close.clear();
+        if self.kept.is_empty() {
             return 0;
         }
-        let leaves = self.boxes.len().next_power_of_two();
+        let leaves = self.kept.len().next_power_of_two();
         self.tree.clear();
         self.tree.resize(2 * leaves, Extent::NONE);
-        for (leaf, own) in self.tree[leaves..].iter_mut().zip(&self.boxes) {
-            *leaf = own.extent;
+        for (leaf, own) in self.tree[leaves..].iter_mut().zip(&self.kept) {
+            *leaf = own.extent.grown(own.place.near());
         }
         for k in (1..leaves).rev() {
             self.tree[k] = self.tree[2 * k].with(&self.tree[2 * k + 1]);
         }
-        let tests = self.descend(strands, leaves);
-        let boxes = &self.boxes;
-        let name = |i: usize| (boxes[i].strand, boxes[i].element);
-        self.near.sort_unstable_by_key(|[a, b]| (name(*a), name(*b)));
-        tests
-    }
-
-    /// Collects the boxes of all elements that can touch others.
-    fn collect(&mut self, strands: &Strands<'_, '_>) {
-        self.boxes.clear();
-        for c in 0..strands.count {
-            let strand = (strands.get)(c);
-            let Some(contact) = strand.model.effects.contact.filter(|_| strands.may_touch(c)) else { continue };
-            let mut from = 0.0;
-            for (e, element) in strand.model.elements.iter().enumerate() {
-                if !strand.model.is_at_eye(e) {
-                    let radius = contact.radius_of(&element.section);
-                    let third = element.length / 3.0;
-                    let polygons = [true, false].map(|start| polygon(&strand, e, third, start));
-                    self.boxes.push(Boxed {
-                        extent: extent(&polygons, radius * (1.0 + NEAR_PAIR)),
-                        direction: direction(&polygons, third),
-                        strand: c,
-                        element: e,
-                        from,
-                        radius,
-                    });
-                }
-                from += element.length;
-            }
-        }
+        self.descend(leaves)
     }
 
     /// Finds the leaves whose boxes meet, and returns the number of tests.
-    fn descend(&mut self, strands: &Strands<'_, '_>, leaves: usize) -> u64 {
+    fn descend(&mut self, leaves: usize) -> u64 {
         let mut tests = 0;
         self.open.clear();
         self.open.push([1, 1]);
@@ -148,62 +199,128 @@ impl Boxes {
                 self.open.extend(children);
                 continue;
             }
-            let (i, j) = (k - leaves, l - leaves);
-            let [own, other] = [&self.boxes[i], &self.boxes[j]];
-            let straight = own.strand == other.strand && is_straight(&self.boxes[i.min(j)..=i.max(j)]);
-            if !straight && strands.coefficients(own.strand, other.strand).is_some() {
-                self.near.push(if is_first(strands, own, other) { [i, j] } else { [j, i] });
+            let (i, j) = ((k - leaves).min(l - leaves), (k - leaves).max(l - leaves));
+            let run = self.kept[i..=j].iter().map(|own| own.direction);
+            if !(self.follow([i, j]) && are_straight(run)) {
+                self.close.push([i, j]);
             }
         }
         tests
     }
+
+    /// Returns whether two elements are of one cable, and those between them follow each other.
+    fn follow(&self, [i, j]: [usize; 2]) -> bool {
+        let [first, last] = [i, j].map(|i| self.kept[i].place);
+        first.strand == last.strand && last.element - first.element == j - i
+    }
+
+    /// Returns whether two elements of a cable follow each other and are straight over the step, so
+    /// that they cannot touch.
+    fn is_straight(&mut self, strands: &Strands<'_, '_>, [i, j]: [usize; 2]) -> bool {
+        self.follow([i, j]) && {
+            (i..=j).for_each(|k| _ = self.boxed(strands, k));
+            are_straight(self.now[i..=j].iter().map(|own| own.and_then(|own| own.direction)))
+        }
+    }
+
+    /// Returns the box of an element over the step.
+    fn boxed(&mut self, strands: &Strands<'_, '_>, i: usize) -> Boxed {
+        let place = &self.kept[i].place;
+        *self.now[i].get_or_insert_with(|| {
+            let polygons = place.polygons(&(strands.get)(place.strand));
+            let direction = direction(&polygons, place.third, STRAIGHT);
+            Boxed { extent: Extent::about(&polygons, place.near()), direction }
+        })
+    }
+}
+
+impl Kept {
+    /// Makes the box of an element, wider than it needs now by its way in some steps, and at least
+    /// by its radius.
+    fn new(strand: &Strand<'_>, place: Place) -> Kept {
+        let polygons = place.polygons(strand);
+        let way = polygons[0].iter().zip(&polygons[1]).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
+        let margin = (KEPT_STEPS * way).min(1.5 * place.third).max(place.radius);
+        Kept {
+            place,
+            extent: Extent::about(&polygons, margin),
+            direction: direction(&polygons, place.third, STAYS_ALONG),
+        }
+    }
+
+    /// Returns whether the element stays in its box and along its direction.
+    fn stays(&self, strand: &Strand<'_>) -> bool {
+        let third = self.place.third;
+        self.place.polygons(strand).iter().all(|polygon| {
+            polygon.iter().all(|x| self.extent.holds(x))
+                && self.direction.is_none_or(|along| is_along(polygon, &along, third, STRAIGHT))
+        })
+    }
+}
+
+impl Place {
+    /// Returns from which distance in m on it counts as near.
+    fn near(&self) -> f64 {
+        self.radius * (1.0 + NEAR_PAIR)
+    }
+
+    /// Returns its Bezier points at the beginning and at the end of the step.
+    fn polygons(&self, strand: &Strand<'_>) -> [Polygon; 2] {
+        let (third, at) = (self.third, 6 * self.element);
+        let read = |x: &[f64], k: usize| Vector3::from_column_slice(&x[at + 3 * k..at + 3 * k + 3]);
+        let points = |d: [Vector3<f64>; 4]| [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]];
+        let start: [Vector3<f64>; 4] = core::array::from_fn(|k| read(strand.q, k));
+        let end = core::array::from_fn(|k| start[k] + read(strand.change, k));
+        [points(start), points(end)]
+    }
+}
+
+/// The Bezier points of an element.
+type Polygon = [Vector3<f64>; 4];
+
+/// Visits all elements that can touch others.
+fn visit(strands: &Strands<'_, '_>, mut f: impl FnMut(&Strand<'_>, Place) -> ControlFlow<()>) -> ControlFlow<()> {
+    for c in 0..strands.count {
+        let strand = (strands.get)(c);
+        let Some(contact) = strand.model.effects.contact.filter(|_| strands.may_touch(c)) else { continue };
+        let mut from = 0.0;
+        for (e, element) in strand.model.elements.iter().enumerate() {
+            if !strand.model.is_at_eye(e) {
+                let (radius, third) = (contact.radius_of(&element.section), element.length / 3.0);
+                f(&strand, Place { strand: c, element: e, from, radius, third })?;
+            }
+            from += element.length;
+        }
+    }
+    ControlFlow::Continue(())
 }
 
 /// Returns whether the first of two elements is the one that keeps their contacts.
-fn is_first(strands: &Strands<'_, '_>, a: &Boxed, b: &Boxed) -> bool {
-    let key = |own: &Boxed| ((strands.get)(own.strand).key, own.strand, own.element);
+fn is_first(strands: &Strands<'_, '_>, a: &Place, b: &Place) -> bool {
+    let key = |own: &Place| ((strands.get)(own.strand).key, own.strand, own.element);
     key(a) < key(b)
 }
 
-/// Returns the Bezier points of an element, a third of whose length is given.
-fn polygon(strand: &Strand<'_>, element: usize, third: f64, start: bool) -> [Vector3<f64>; 4] {
-    let d: [Vector3<f64>; 4] = core::array::from_fn(|k| {
-        let at = 6 * element + 3 * k;
-        let change = if start { Vector3::zeros() } else { Vector3::from_column_slice(&strand.change[at..at + 3]) };
-        Vector3::from_column_slice(&strand.q[at..at + 3]) + change
-    });
-    [d[0], d[0] + d[1] * third, d[2] - d[3] * third, d[2]]
-}
-
-/// Returns the box about two polygons, grown by a margin in m.
-fn extent(polygons: &[[Vector3<f64>; 4]; 2], margin: f64) -> Extent {
-    let (mut low, mut high) = (polygons[0][0], polygons[0][0]);
-    for x in polygons.iter().flatten() {
-        (low, high) = (low.inf(x), high.sup(x));
-    }
-    let margin = Vector3::repeat(margin);
-    Extent { low: low - margin, high: high + margin }
-}
-
-/// Returns the direction of an element that is straight at both ends of the step.
-fn direction(polygons: &[[Vector3<f64>; 4]; 2], third: f64) -> Option<Vector3<f64>> {
+/// Returns the direction of an element that is straight at both ends of the step, with this least
+/// cosine.
+fn direction(polygons: &[Polygon; 2], third: f64, least: f64) -> Option<Vector3<f64>> {
     let [start, ..] = polygons;
     let direction = (start[3] - start[0]).try_normalize(0.0)?;
-    let is_along = |p: &[Vector3<f64>]| {
-        let h = p[1] - p[0];
-        let along = h.dot(&direction);
-        along > 0.0 && along * along >= STRAIGHT * STRAIGHT * h.norm_squared().max(third * third)
-    };
-    polygons.iter().all(|polygon| polygon.windows(2).all(is_along)).then_some(direction)
+    polygons.iter().all(|polygon| is_along(polygon, &direction, third, least)).then_some(direction)
 }
 
-/// Returns whether elements of a cable follow each other and are straight, so that they cannot
-/// touch.
-fn is_straight(elements: &[Boxed]) -> bool {
-    let ([first, .., last] | [first @ last]) = elements else { return false };
-    let follow = last.element - first.element + 1 == elements.len();
-    let Some(all) = first.direction.zip(last.direction).and_then(|(a, b)| (a + b).try_normalize(0.0)) else {
-        return false;
-    };
-    follow && elements.iter().all(|own| own.direction.is_some_and(|own| own.dot(&all) >= STRAIGHT))
+/// Returns whether an element is straight along a direction, with this least cosine.
+fn is_along(polygon: &Polygon, direction: &Vector3<f64>, third: f64, least: f64) -> bool {
+    polygon.windows(2).all(|p| {
+        let h = p[1] - p[0];
+        let along = h.dot(direction);
+        along > 0.0 && along * along >= least * least * h.norm_squared().max(third * third)
+    })
+}
+
+/// Returns whether elements that follow each other are straight and in line, by their directions.
+fn are_straight(directions: impl DoubleEndedIterator<Item = Option<Vector3<f64>>> + Clone) -> bool {
+    let ends = directions.clone().next().flatten().zip(directions.clone().next_back().flatten());
+    let Some(all) = ends.and_then(|(a, b)| (a + b).try_normalize(0.0)) else { return false };
+    directions.into_iter().all(|own| own.is_some_and(|own| own.dot(&all) >= STRAIGHT))
 }

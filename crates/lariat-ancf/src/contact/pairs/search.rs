@@ -12,7 +12,7 @@
 //! Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative
 //! advancement).
 
-use super::boxes::{Boxed, Boxes};
+use super::boxes::{Boxes, Place};
 use super::chords::{Piece, closest, refine};
 use super::crossing::crossing;
 use super::halves::{ChordPair, Halves, Near};
@@ -60,7 +60,7 @@ impl Search {
         self.found.clear();
         self.find_near(strands);
         for k in 0..self.elements.near.len() {
-            let own = self.elements.near[k].map(|i| self.elements.boxes[i]);
+            let own = self.elements.near[k];
             let pair = pair(strands, &own);
             self.tests += self.chords.find(&pair);
             for i in 0..self.chords.found.len() {
@@ -77,7 +77,7 @@ impl Search {
     /// Returns the first place found where centre lines go through each other in the step.
     pub fn crossing(&mut self, strands: &Strands<'_, '_>) -> Option<Crossed> {
         for k in 0..self.elements.near.len() {
-            let own = self.elements.near[k].map(|i| self.elements.boxes[i]);
+            let own = self.elements.near[k];
             let pair = pair(strands, &own);
             self.tests += self.chords.find(&pair);
             let names = own.map(|own| own.strand);
@@ -103,7 +103,7 @@ impl Search {
     fn compare(
         &mut self,
         strands: &Strands<'_, '_>,
-        [first, second]: &[Boxed; 2],
+        [first, second]: &[Place; 2],
         pair: &Near<'_>,
         [i, j]: [usize; 2],
         near: f64,
@@ -175,7 +175,7 @@ impl Search {
 }
 
 /// Returns two elements, whose chords are compared.
-fn pair<'a>(strands: &Strands<'_, 'a>, own: &[Boxed; 2]) -> Near<'a> {
+fn pair<'a>(strands: &Strands<'_, 'a>, own: &[Place; 2]) -> Near<'a> {
     let [first, second] = own;
     Near {
         pieces: own.map(|own| Piece::new((strands.get)(own.strand), own.element)),
