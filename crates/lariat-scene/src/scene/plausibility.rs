@@ -347,8 +347,8 @@ fn of_cable(cable: &CableScene, gravity: f64) -> impl Iterator<Item = lariat_anc
         _ => None,
     };
     let others = [
-        sizes::strength(name, &cable.breaking.strength, &first),
-        sizes::contact_radius(name, contact, &first, length),
+        sizes::strength(name, &cable.breaking.strength, first),
+        sizes::contact_radius(name, contact, first, length),
         sizes::gravity(name, gravity),
         tolerance,
         sizes::slack(name, length, drawn),
