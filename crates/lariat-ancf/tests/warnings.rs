@@ -435,7 +435,7 @@ fn of_each_kind() -> Vec<Warning> {
         Warning::FreeEye { cable: cable(), arc_length_m: 2.0 },
         Warning::RoughContact { cable: cable(), friction: 30.0 },
         Warning::StretchyBreak { cable: cable(), strain: 2.0, wave_speed_m_s: 2e3 },
-        Warning::PriedAttachment { cable: cable(), arc_length_m: 0.5, nearer_m: 0.01, force_n: 3.0 },
+        Warning::PriedAttachment { cable: cable(), arc_length_m: 0.5, radius_m: 0.01, force_n: 3.0 },
         Warning::StartsInside { cable: cable(), obstacle: 1, arc_length_m: 0.5, depth_m: 0.1 },
         Warning::BeyondCurve { cable: cable(), time_s, tension_n: 2.0, strain: 0.1, force_n: 1.0 },
         Warning::BreaksAgain { cable: cable(), breaks: 3 },

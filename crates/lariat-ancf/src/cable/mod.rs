@@ -78,7 +78,6 @@ pub(crate) use check::{check_integrator, check_torsion};
 use fearless_simd::Level;
 pub(crate) use layout::{Sag, along_polyline};
 use nalgebra::Vector3;
-pub(crate) use prying::Prying;
 pub use reel::ReelReading;
 use serde::{Deserialize, Serialize};
 pub use snapshot::Snapshot;

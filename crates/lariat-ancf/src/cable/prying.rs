@@ -4,35 +4,35 @@
 
 use super::Cable;
 use crate::obstacle::Obstacle;
-use crate::scales::watch::{DEPTH, PRIED_BESIDE};
+use crate::scales::watch::{DEPTH, PRIED, PRIED_BESIDE};
 
 /// An attachment that pries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Prying {
     /// Its arc length in m.
     pub arc_length: f64,
-    /// How much nearer than its radius it holds the cable, in m.
-    pub nearer: f64,
     /// The force in N that bending adds.
     pub force: f64,
-    /// The same as a share of the largest tension, or of the weight.
-    pub share: f64,
+    /// The largest tension or the weight in N, with which that is to be compared.
+    pub scale: f64,
 }
 
 impl Cable {
-    /// Returns the attachment that pries most, of those beside which the cable touches the body.
+    /// Returns the attachment that pries most, of those beside which the cable touches the body, if
+    /// that is more than a share of the weight that is told.
     pub(crate) fn prying(&self) -> Option<Prying> {
         let holds = self.obstacles().iter().filter(|obstacle| !obstacle.except.is_empty());
         let pieces = holds.flat_map(|obstacle| obstacle.except.iter().map(move |piece| (obstacle, *piece)));
         let found = pieces.filter_map(|(obstacle, piece)| self.prying_at(obstacle, piece));
-        let most = found.reduce(|most, one| if one.force > most.force { one } else { most })?;
-        let weight: f64 = self.elements().iter().map(|e| e.section.mass_per_length * e.length).sum();
-        let scale = self.peak_tension().1.max(weight * self.gravity().norm());
-        (scale > 0.0).then(|| Prying { share: most.force / scale, ..most })
+        let [arc_length, force] = found.reduce(|most, one| if one[1] > most[1] { one } else { most })?;
+        let mass: f64 = self.elements().iter().map(|e| e.section.mass_per_length * e.length).sum();
+        let weight = mass * self.gravity().norm();
+        (force > PRIED * weight).then(|| Prying { arc_length, force, scale: self.peak_tension().1.max(weight) })
     }
 
-    /// Returns what an obstacle pries that holds a piece from one arc length (m) to another.
-    fn prying_at(&self, obstacle: &Obstacle, [from, to]: [f64; 2]) -> Option<Prying> {
+    /// Returns arc length (m) and force (N) of what an obstacle pries that holds a piece from one
+    /// arc length (m) to another.
+    fn prying_at(&self, obstacle: &Obstacle, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
         let (arc_length, reach) = (0.5 * (from + to), 0.5 * (to - from));
         let radius = self.contact_radius();
         let touches = |low: f64, high: f64| {
@@ -50,6 +50,6 @@ impl Cable {
         let held = self.sample(arc_length.clamp(0.0, self.length())).ok()?.position;
         let place = obstacle.motion.pose(self.time()).own(&held);
         let nearer = radius + obstacle.skin - obstacle.surface.nearest(&place).distance;
-        (nearer > DEPTH * radius).then(|| Prying { arc_length, nearer, force: moment / reach, share: 0.0 })
+        (nearer > DEPTH * radius).then(|| [arc_length, moment / reach])
     }
 }

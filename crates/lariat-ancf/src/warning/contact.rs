@@ -31,7 +31,7 @@
 //! pushes most is followed, one of a cable, up to four diameters in a host step.
 
 use super::Warning;
-use crate::cable::{Cable, Prying};
+use crate::cable::Cable;
 use crate::obstacle::{LARGEST_RESTITUTION, Obstacle, RigidMotion};
 use crate::scales::watch::{
     ADVISED, CONTACT_TURN, DEPTH, DURATION, FACET_TURN, FOLLOWED, INSIDE, PRIED, RUN, SLID, TOUCHDOWN,
@@ -127,12 +127,13 @@ impl Contacts {
         let [depth, turn] = cable.contact_quality(CONTACT_TURN);
         let rests = !cable.snapshot.state.memory.contacts.is_empty() && cable.velocities().iter().all(|v| *v == 0.0);
         let touchdown = cable.touchdown_quality();
-        let pried = cable.prying().map_or([0.0; 2], |prying| [prying.arc_length, prying.share]);
+        let (pried, bears) =
+            cable.prying().map_or(([0.0; 2], f64::INFINITY), |own| ([own.arc_length, own.force], own.scale));
         for (excess, reading, limit) in [
             (&mut self.depth, depth, DEPTH),
             (&mut self.turn, turn, 1.0),
             (&mut self.touchdown, touchdown, TOUCHDOWN),
-            (&mut self.pried, pried, PRIED),
+            (&mut self.pried, pried, PRIED * bears),
         ] {
             excess.note(cable.time(), reading, limit);
             if rests {
@@ -181,11 +182,11 @@ impl Contacts {
         })
     }
 
-    /// Whether an attachment pries, as long as it does.
+    /// Whether an attachment pries.
     pub fn pried(&self, cable: &Cable) -> Option<Warning> {
-        self.pried.told()?;
-        let Prying { arc_length: arc_length_m, nearer: nearer_m, force: force_n, .. } = cable.prying()?;
-        Some(Warning::PriedAttachment { cable: cable.name().to_string(), arc_length_m, nearer_m, force_n })
+        let [arc_length_m, force_n] = self.pried.told()?;
+        let (cable, radius_m) = (cable.name().to_string(), cable.contact_radius());
+        Some(Warning::PriedAttachment { cable, arc_length_m, radius_m, force_n })
     }
 
     /// Follows the contact with a cable that pushes most while it sticks.

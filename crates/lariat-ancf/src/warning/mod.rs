@@ -491,16 +491,16 @@ pub enum Warning {
     },
     /// An attachment holds a stiff cable nearer a body than it lies beside it.
     #[error(
-        "cable {cable:?}: at {arc_length_m:.4} m an attachment holds it {nearer_m:.2e} m nearer what it touches than its radius lets it lie beside that: bent over so much, it adds \
-         some {force_n:.1e} N to the forces there, more on a finer mesh; put the anchor that much farther out"
+        "cable {cable:?}: at {arc_length_m:.4} m an attachment holds it nearer what it touches than its radius, {radius_m} m, lets it lie beside that: bent over so much, it adds \
+         some {force_n:.1e} N to the forces there, more on a finer mesh; put the anchor a radius outside"
     )]
     PriedAttachment {
         /// Name of the cable.
         cable: String,
         /// Arc length of the attachment in m.
         arc_length_m: f64,
-        /// How much nearer in m.
-        nearer_m: f64,
+        /// Radius of the cable in m.
+        radius_m: f64,
         /// The moment beside the attachment over the length that does not touch, in N.
         force_n: f64,
     },
