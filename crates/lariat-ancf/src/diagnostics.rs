@@ -40,8 +40,9 @@ pub struct Diagnostics {
     #[serde(default)]
     pub load_readings: u64,
     /// Tests of whether pieces of a cable are near each other, other cables, obstacles and their
-    /// edges and corners; those with cables are counted by the first one of an island. Zero for a
-    /// cable without contact.
+    /// edges and corners; those with cables are counted by the first one of an island, and are
+    /// fewer where a tree of boxes is kept, which results do not depend on. Zero for a cable
+    /// without contact.
     #[serde(default)]
     pub search_tests: u64,
     /// Steps of the discrete gradient whose velocities were scaled down to keep its energy law.

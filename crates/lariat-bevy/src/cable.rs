@@ -3,7 +3,7 @@
 use crate::cables::Cables;
 use crate::components::CableComponents;
 use crate::description::{Description, Span};
-use crate::event::{CableFailed, Logged};
+use crate::event::{CableFailed, Logged, QueuedEvent};
 use crate::pending::Pending;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
@@ -178,8 +178,9 @@ pub(crate) fn build(mut world: DeferredWorld, entity: Entity) {
         Err(error) => {
             cables.links.built.insert(entity, Err(error.clone()));
             let event = CableFailed { entity, error };
-            if let Some(mut logged) = world.get_resource_mut::<Logged>() {
-                logged.note(&event.clone().into(), None);
+            let failure = QueuedEvent::from(event.clone()).failure(None);
+            if let (Some(failure), Some(mut logged)) = (failure, world.get_resource_mut::<Logged>()) {
+                logged.note(failure);
             }
             world.write_message(event.clone());
             world.commands().trigger(event);

@@ -283,9 +283,9 @@ macro_rules! queue {
         impl QueuedEvent {
             /// Writes the message, runs the observers, and logs a failure that this entity has not had.
             pub fn send(self, world: &mut World) {
-                if let Some(mut logged) = world.remove_resource::<Logged>() {
-                    logged.note(&self, world.get_resource::<Cables>().map(|cables| &cables.links));
-                    world.insert_resource(logged);
+                let failure = self.failure(world.get_resource::<Cables>().map(|cables| &cables.links));
+                if let (Some(failure), Some(mut logged)) = (failure, world.get_resource_mut::<Logged>()) {
+                    logged.note(failure);
                 }
                 match self {
                     $(QueuedEvent::$event(event) => {
@@ -308,10 +308,15 @@ for_each_event!(queue);
 macro_rules! failures {
     ($($event:ident),*) => {
         impl QueuedEvent {
-            /// Returns entity, event and text of one that the program has to mend.
-            fn failure(&self) -> Option<(Entity, &'static str, String)> {
+            /// Returns entity, event and text of one that the program has to mend; entities have
+            /// their names by `links`.
+            pub fn failure(&self, links: Option<&Links>) -> Option<Failure> {
+                let text = |error: &dyn core::fmt::Display| {
+                    let text = Interface::Bevy.text(&error);
+                    links.map_or_else(|| text.clone(), |links| links.name_entities(&text))
+                };
                 match self {
-                    $(QueuedEvent::$event(event) => Some((event.entity, stringify!($event), Interface::Bevy.text(&event.error))),)*
+                    $(QueuedEvent::$event(event) => Some((event.entity, stringify!($event), text(&event.error))),)*
                     _ => None,
                 }
             }
@@ -320,15 +325,16 @@ macro_rules! failures {
 }
 failures!(CableFailed, StepFailed, AttachmentFailed, JunctionFailed, DrumFailed, SheaveFailed, WaterFailed);
 
+/// Entity, event and text of a failure.
+type Failure = (Entity, &'static str, String);
+
 /// The last failure that was logged of each entity and event.
 #[derive(Resource, Default)]
 pub(crate) struct Logged(HashMap<(Entity, &'static str), String>);
 
 impl Logged {
     /// Logs a failure, unless it is the last one of its entity and event.
-    pub fn note(&mut self, event: &QueuedEvent, links: Option<&Links>) {
-        let Some((entity, event, failure)) = event.failure() else { return };
-        let failure = links.map_or(failure.clone(), |links| links.name_entities(&failure));
+    pub fn note(&mut self, (entity, event, failure): Failure) {
         if self.0.get(&(entity, event)) != Some(&failure) {
             log::error!("{event} of {entity}: {failure}");
             self.0.insert((entity, event), failure);

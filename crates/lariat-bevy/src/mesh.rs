@@ -130,10 +130,11 @@ impl RopeVertices {
             return false;
         }
         self.stripe = stripe;
-        let fewer = self.drawn.0.len() != positions.len() || self.drawn.1.as_ref() != Some(mesh);
+        let other = self.drawn.1.as_ref() != Some(mesh);
+        let fewer = other || self.drawn.0.len() != positions.len();
         self.drawn.0.clear();
         self.drawn.0.extend_from_slice(positions);
-        if self.drawn.1.as_ref() != Some(mesh) {
+        if other {
             self.drawn.1 = Some(mesh.clone());
             self.circle.clear();
             let angles = (0..=mesh.sides).map(|k| core::f64::consts::TAU * (k as f64 / mesh.sides as f64));

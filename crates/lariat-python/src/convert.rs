@@ -50,9 +50,9 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Array {
 
 /// A whole number of at least 0.
 #[derive(Clone, Copy, Debug)]
-pub struct Count(pub usize);
+pub struct Count<T = usize>(pub T);
 
-impl<'a, 'py> FromPyObject<'a, 'py> for Count {
+impl<'a, 'py, T: FromPyObject<'a, 'py>> FromPyObject<'a, 'py> for Count<T> {
     type Error = PyErr;
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         let wanted = "a whole number of at least 0";

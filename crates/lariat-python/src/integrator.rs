@@ -32,7 +32,7 @@ impl Integrator {
         method: &str,
         tolerance: Option<f64>,
         norm: Option<&str>,
-        substeps: Option<Count>,
+        substeps: Option<Count<u32>>,
         max_step: Option<f64>,
         adaptive: Option<f64>,
         stable: Option<f64>,
@@ -50,7 +50,7 @@ impl Integrator {
         let norm = norm.map(|name| name.parse::<ErrorNorm>().map_err(raise)).transpose()?;
         let controls = [
             tolerance.map(|x| norm.map_or(StepControl::Tolerance(x), |norm| StepControl::ToleranceOf(x, norm))),
-            substeps.map(|count| StepControl::Substeps(u32::try_from(count.0).unwrap_or(u32::MAX))),
+            substeps.map(|Count(substeps)| StepControl::Substeps(substeps)),
             max_step.map(StepControl::MaxStep),
             adaptive.map(StepControl::Adaptive),
             stable.map(StepControl::Stable),

@@ -43,7 +43,6 @@ mod overlap;
 mod parts;
 mod potentials;
 mod prescribe;
-mod prying;
 pub mod reactions;
 mod reel;
 mod sag;

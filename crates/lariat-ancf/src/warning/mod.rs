@@ -11,6 +11,7 @@
 //! |---|---|
 //! | `sizes` | section, length and material, before anything moves |
 //! | `contact` | the mesh beside what the cable touches, and its friction |
+//! | `prying` | attachments that hold a stiff cable nearer what it touches than it lies |
 //! | `watch` | mesh, tension and reel, by the shapes of a run |
 //! | `steps` | the length of integration steps, by the velocities of a run |
 //! | `layers`, `advised` | moments and kinks at clamps and loads, and meshes that do |
@@ -27,6 +28,7 @@ mod facts;
 pub mod fold;
 mod layers;
 mod level;
+mod prying;
 mod shock;
 pub mod sizes;
 mod steps;

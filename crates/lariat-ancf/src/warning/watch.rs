@@ -292,9 +292,13 @@ fn free_eye(cable: &Cable) -> Option<Warning> {
     Some(Warning::FreeEye { cable: cable.name().to_string(), arc_length_m })
 }
 
-/// Whether an obstacle has a coefficient of friction that no materials have.
+/// Whether an obstacle has a coefficient of friction that no materials have, where the cable's own,
+/// which is told as a size, is none.
 fn rough_obstacle(cable: &Cable) -> Option<Warning> {
-    cable.effects().contact?;
+    let own = cable.effects().contact?;
+    if sizes::friction(cable.name(), own.friction).is_some() {
+        return None;
+    }
     let friction = cable.obstacles().iter().map(|obstacle| obstacle.friction).fold(0.0, f64::max);
     sizes::friction(cable.name(), friction)
 }

@@ -27,15 +27,19 @@ fn tests(points: Vec<Vector3<f64>>, (elements, radius): (usize, f64), obstacles:
 ///
 /// *Source.* Counts: each pair of neighbours in a binary tree over the elements is one test, and
 /// has four pairs below it: at most 5 per element and search; a search in the beginning of a step,
-/// and one at its end if it went otherwise than expected.
+/// and one at its end if it went otherwise than expected. At least one tree is made in 12 steps, of
+/// nearly four tests per element.
 #[test]
 fn a_rope_that_touches_nothing_costs_little() {
     for length in [0.5, 50.0, 5000.0] {
         for (elements, radius) in [(10, 5e-3), (40, 5e-4), (40, 5e-3), (40, 2e-2), (320, 1e-4)] {
             let radius = f64::min(radius, 0.1 * length / elements as f64);
-            let found = tests(vec![up() * 0.1, up() * (0.1 + length)], (elements, radius), Vec::new());
+            // in fresh buffers, where no tree is kept
+            let line = vec![up() * 0.1, up() * (0.1 + length)];
+            let run = std::thread::spawn(move || tests(line, (elements, radius), Vec::new()));
+            let found = run.join().unwrap();
             println!("{length} m, {elements} elements, {radius} m: {found:.1}");
-            assert!((0.0..10.0).contains(&found), "{length} {elements} {radius}: {found}");
+            assert!((0.3..10.0).contains(&found), "{length} {elements} {radius}: {found}");
         }
     }
 }

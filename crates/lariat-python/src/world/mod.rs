@@ -104,8 +104,8 @@ impl World {
         gravity: Option<Vector>,
         dt: f64,
         fidelity: &str,
-        rapier_steps: Count,
-        max_rapier_steps: Count,
+        rapier_steps: Count<u32>,
+        max_rapier_steps: Count<u32>,
         sleep_speed: f64,
         max_iterations: Option<u64>,
         max_time: Option<f64>,
@@ -118,8 +118,7 @@ impl World {
         if !(sleep_speed.is_finite() && sleep_speed >= 0.0) {
             return Err(bodies::invalid("sleep_speed (m/s)", sleep_speed, ">= 0"));
         }
-        let [rapier_steps, max_rapier_steps] =
-            [rapier_steps, max_rapier_steps].map(|count| u32::try_from(count.0).unwrap_or(u32::MAX));
+        let (Count(rapier_steps), Count(max_rapier_steps)) = (rapier_steps, max_rapier_steps);
         if rapier_steps == 0 {
             return Err(bodies::invalid("rapier_steps", 0.0, "> 0"));
         }

@@ -1,8 +1,9 @@
 //! What bending adds to the force of an attachment that holds a cable nearer a body than it lies.
 //!
-//! Equation and validity: `warning/contact.rs`.
+//! Equation and validity: `contact.rs`.
 
-use super::Cable;
+use super::balance::weight_and_stiffness;
+use crate::cable::Cable;
 use crate::obstacle::Obstacle;
 use crate::scales::watch::{DEPTH, PRIED, PRIED_BESIDE};
 
@@ -25,8 +26,7 @@ impl Cable {
         let pieces = holds.flat_map(|obstacle| obstacle.except.iter().map(move |piece| (obstacle, *piece)));
         let found = pieces.filter_map(|(obstacle, piece)| self.prying_at(obstacle, piece));
         let [arc_length, force] = found.reduce(|most, one| if one[1] > most[1] { one } else { most })?;
-        let mass: f64 = self.elements().iter().map(|e| e.section.mass_per_length * e.length).sum();
-        let weight = mass * self.gravity().norm();
+        let (weight, _) = weight_and_stiffness(self);
         (force > PRIED * weight).then(|| Prying { arc_length, force, scale: self.peak_tension().1.max(weight) })
     }
 
