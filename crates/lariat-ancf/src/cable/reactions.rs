@@ -5,9 +5,20 @@
 //! ```text
 //! f = M q'' - F on the position        m = t x (M q'' - F) of the slope t
 //! ```
+//!
+//! F has the contacts in it, by their mean forces over the last step; the accelerations of a cable
+//! that touches something are means, too.
+//!
+//! # Validity
+//!
+//! A contact of two cables is part of the state of one of them. To the other,
+//! [`share_of_contact`](crate::coupling::Coupling::share_of_contact) gives it. The couple of
+//! friction between cables, at most mu N r, is left out.
 
 use super::Cable;
+use crate::contact::PairTouch;
 use crate::effect::acts::ForceInput;
+use crate::element::shape::position;
 use crate::error::Error;
 use crate::integrate::Dynamics;
 use crate::system::Buffers;
@@ -43,8 +54,14 @@ impl Cable {
     fn reactions_of_forces(&mut self) -> Result<Vec<Reaction>, Error> {
         let n = self.positions().len();
         self.refresh_memory();
-        let mut acceleration = self.snapshot.state.memory.acceleration.clone();
-        if !self.snapshot.state.memory.valid {
+        let memory = &self.snapshot.state.memory;
+        let mut acceleration = memory.acceleration.clone();
+        if !memory.valid && !(memory.contacts.is_empty() && memory.pairs.is_empty()) {
+            acceleration = vec![0.0; n];
+            if let Some(step) = memory.differences.length() {
+                acceleration.iter_mut().zip(&memory.differences.velocity).for_each(|(a, v)| *a = v / step);
+            }
+        } else if !memory.valid {
             acceleration.resize(n, 0.0);
             let outcome = self.with_workspace(|cable| {
                 let (mut dynamics, state) = cable.dynamics();
@@ -68,7 +85,13 @@ impl Cable {
                 moment: slope.cross(&vector(&residual[i + 3..i + 6], &inertia[i + 3..i + 6])),
             }
         };
-        Ok(equations.model.supports.iter().map(reaction).collect())
+        let mut reactions: Vec<Reaction> = equations.model.supports.iter().map(reaction).collect();
+        for reaction in &mut reactions {
+            let (force, moment) = self.pull_of_contacts(reaction.node);
+            reaction.force -= force;
+            reaction.moment -= moment;
+        }
+        Ok(reactions)
     }
 
     /// See [`Coupling`](crate::coupling::Coupling).
@@ -88,14 +111,47 @@ impl Cable {
         if state.memory.valid {
             equations.system.mass.multiply(equations.system.level, &state.memory.acceleration, product);
             rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m);
-        } else if !state.memory.differences.is_empty() && state.memory.differences.step > 0.0 {
+        } else if let Some(step) = state.memory.differences.length() {
             // the discrete gradient knows the mean ones of its last step
             let differences = &state.memory.differences;
             equations.system.mass.multiply(equations.system.level, &differences.velocity, product);
-            rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m / differences.step);
+            rhs.iter_mut().zip(product.iter()).for_each(|(r, m)| *r -= m / step);
         }
         let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
         let (force, slope) = (vector(&rhs[6 * node..]), vector(&rhs[6 * node + 3..]));
-        (force, vector(&state.q[6 * node + 3..]).cross(&slope))
+        let moment = vector(&state.q[6 * node + 3..]).cross(&slope);
+        let of_contacts = self.pull_of_contacts(node);
+        (force + of_contacts.0, moment + of_contacts.1)
+    }
+
+    /// Returns what the contacts that the cable knows add to the pull on what holds a node.
+    fn pull_of_contacts(&self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
+        let (memory, key) = (&self.snapshot.state.memory, self.model.contact_key);
+        let pairs = self.cable_contacts().zip(&memory.pairs).flat_map(|(touch, pair)| {
+            let force = pair.contact.force * pair.contact.direction + pair.contact.friction;
+            let other = (touch.other == key).then(|| (self.model.locate(touch.other_arc_length), -force));
+            [Some((self.model.locate(touch.arc_length), force)), other]
+        });
+        let obstacles = memory.contacts.iter().map(|contact| {
+            let force = contact.force * contact.direction + contact.friction;
+            ((contact.element as usize, contact.xi), force)
+        });
+        let shares = obstacles.chain(pairs.flatten()).map(|(at, force)| self.share(node, at, &force));
+        shares.fold(Default::default(), |sum, share| (sum.0 + share.0, sum.1 + share.1))
+    }
+
+    /// See [`Coupling`](crate::coupling::Coupling).
+    pub(crate) fn share_of_contact(&self, node: usize, touch: &PairTouch) -> (Vector3<f64>, Vector3<f64>) {
+        let force = touch.normal_force * touch.normal + touch.friction;
+        self.share(node, self.model.locate(touch.arc_length), &force)
+    }
+
+    /// Returns the share of a force (N) at a place of an element that a node has: force, and moment
+    /// about the node.
+    fn share(&self, node: usize, (e, xi): (usize, f64), force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let Some(side) = node.checked_sub(e).filter(|side| *side < 2) else { return Default::default() };
+        let weights = position(xi, self.model.elements[e].length);
+        let slope = Vector3::from_column_slice(&self.positions()[6 * node + 3..6 * node + 6]);
+        (weights[2 * side] * force, slope.cross(force) * weights[2 * side + 1])
     }
 }

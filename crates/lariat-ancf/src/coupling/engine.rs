@@ -2,6 +2,7 @@
 
 use crate::at::At;
 use crate::cable::Cable;
+use crate::contact::PairTouch;
 use crate::diagnostics::Diagnostics;
 use crate::effect::Effects;
 use crate::error::Error;
@@ -242,6 +243,10 @@ pub trait Coupling {
     /// nothing.
     fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>);
 
+    /// Returns the share of a contact with another cable in the [pull](Self::pull) on what holds
+    /// `node`: force (N) and moment (N m). For those contacts that the other cable keeps.
+    fn share_of_contact(&self, node: usize, touch: &PairTouch) -> (Vector3<f64>, Vector3<f64>);
+
     /// Returns whether the cable reads itself.
     fn is_watched(&self) -> bool;
 
@@ -452,6 +457,10 @@ impl Coupling for Cable {
 
     fn pull(&mut self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
         Cable::pull(self, node)
+    }
+
+    fn share_of_contact(&self, node: usize, touch: &PairTouch) -> (Vector3<f64>, Vector3<f64>) {
+        Cable::share_of_contact(self, node, touch)
     }
 
     fn is_watched(&self) -> bool {

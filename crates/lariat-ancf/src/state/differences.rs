@@ -34,6 +34,11 @@ impl Differences {
         self.revision = 0;
     }
 
+    /// Returns the length in s of the last step, if there was one.
+    pub(crate) fn length(&self) -> Option<f64> {
+        (!self.is_empty() && self.step > 0.0).then_some(self.step)
+    }
+
     /// Returns whether there is no last step.
     pub(crate) fn is_empty(&self) -> bool {
         self.velocity.is_empty()

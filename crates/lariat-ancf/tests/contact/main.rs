@@ -15,6 +15,7 @@ mod hooks;
 mod pairs;
 mod passed;
 mod plastic;
+mod reactions;
 mod restitution;
 mod search;
 mod slides;

@@ -10,6 +10,7 @@
 //! | [`neighbours`] | finds the cables that can touch each other |
 //! | [`shape`], [`mesh`], [`compound`], [`cone`] | the surface of a collider in `f64`, from the exact numbers of its shape |
 //! | [`events`] | contacts that began and ended |
+//! | [`pull`] | what a cable pulls at a node, with contacts that other cables keep |
 //!
 //! Which of them a cable touches, and with which friction, is said by its
 //! [rules](crate::contents::rules), as Rapier decides it.
@@ -38,6 +39,7 @@ mod cone;
 pub(crate) mod events;
 mod mesh;
 mod neighbours;
+pub(crate) mod pull;
 mod shape;
 
 pub(crate) use shape::Surfaces;

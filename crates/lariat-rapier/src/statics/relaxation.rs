@@ -33,6 +33,7 @@ use crate::contents::Contents;
 use crate::convert::{to_vector, vector};
 use crate::error::Error;
 use crate::handle::CableHandle;
+use crate::scales::contents::ATTACHMENT_GAP;
 use crate::scales::statics::{RELAXATION_STEP, RELAXATION_STEPS, STILL, STILL_STEPS, UNTOUCHED, WINDOWS};
 use crate::step::settings::Settings;
 use crate::step::{self, Stepper};
@@ -50,6 +51,8 @@ struct Relaxation {
     stepper: Stepper,
     /// Forces and torques of the users on each body, without those at points.
     own: Vec<(RigidBodyHandle, Vector, Vector)>,
+    /// Whether a cable began otherwise than as it was drawn.
+    looks_at_sides: bool,
 }
 
 /// Moves a set and its world to where they come to rest from how cables were `drawn`; returns
@@ -103,11 +106,20 @@ pub(super) fn moves(contents: &Contents, world: &PhysicsWorld, forces: &[BodyFor
 
 impl Relaxation {
     fn new(contents: &Contents, world: &PhysicsWorld, drawn: &[(CableHandle, Cable)]) -> Option<Self> {
-        let (mut contents, mut world) = (contents.clone(), copy(world));
+        let (mut contents, mut world, mut looks_at_sides) = (contents.clone(), copy(world), false);
         for (handle, cable) in drawn {
+            let held = contents.attachments.values().filter(|a| a.cable == *handle);
+            let nodes: Vec<usize> = held.map(|a| a.node).collect();
             let Some(slot) = contents.cables.get_mut(handle.0 as usize) else { continue };
-            if slot.cable.positions().len() == cable.positions().len() {
+            if slot.cable.positions().len() != cable.positions().len() {
+                continue;
+            }
+            // drawn away from what it is attached to, it begins where it was brought there
+            let gap = |node: usize| (slot.cable.node_position(node) - cable.node_position(node)).norm();
+            if nodes.into_iter().all(|node| gap(node) <= ATTACHMENT_GAP) {
                 slot.cable.set_coordinates(cable.positions(), cable.velocities()).ok()?;
+            } else {
+                looks_at_sides = true;
             }
         }
         for slot in contents.cables.values_mut() {
@@ -125,7 +137,7 @@ impl Relaxation {
             stop(body);
         }
         world.integration_parameters.dt = RELAXATION_STEP as Real;
-        Some(Relaxation { contents, world, stepper: Stepper::default(), own })
+        Some(Relaxation { contents, world, stepper: Stepper::default(), own, looks_at_sides })
     }
 
     /// Returns whether a cable touches what statics do not compute: itself, another one, or a body
@@ -173,9 +185,9 @@ impl Relaxation {
         None
     }
 
-    /// Returns whether something went through something else on the way.
+    /// Returns whether something went, or may have gone, through something else on the way.
     fn passed_something(&self) -> bool {
-        self.contents.cables.iter().any(|(_, slot)| slot.cable.diagnostics().crossed_steps > 0)
+        self.looks_at_sides || self.contents.cables.iter().any(|(_, slot)| slot.cable.diagnostics().crossed_steps > 0)
     }
 
     /// Refuses shapes beyond what cables touch, seen from how they were `drawn` in a world.
@@ -193,7 +205,7 @@ impl Relaxation {
     }
 
     fn step(&mut self, forces: &[BodyForce]) -> Result<(), Error> {
-        let Relaxation { contents, world, stepper, own } = self;
+        let Relaxation { contents, world, stepper, own, .. } = self;
         for (handle, force, torque) in &*own {
             let body = &mut world.bodies[*handle];
             set_forces(body, *force, *torque);

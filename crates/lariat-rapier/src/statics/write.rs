@@ -3,11 +3,11 @@
 use super::multibody;
 use super::solve::{Solved, poses};
 use crate::body::record::ExactState;
+use crate::contact::pull::pull;
 use crate::contents::Contents;
 use crate::convert::{rotation, vector};
 use crate::islands::Member;
 use ::nalgebra::{Vector3, Vector6};
-use lariat_ancf::coupling::Coupling;
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
 
@@ -41,10 +41,12 @@ pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: S
 
 /// Updates the readings of all attachments.
 pub(super) fn read_forces(contents: &mut Contents, world: &PhysicsWorld) {
-    let Contents { cables, attachments, records, .. } = contents;
-    for a in attachments.values_mut() {
-        let (Some(slot), Some(body)) = (cables.get_mut(a.cable.0 as usize), world.bodies.get(a.body)) else { continue };
-        let (force, moment) = slot.cable.pull(a.node);
+    let held: Vec<_> = contents.attachments.iter().map(|(index, a)| (index, a.cable.0 as usize, a.node)).collect();
+    for (index, cable, node) in held {
+        let (force, moment) = pull(contents, cable, node);
+        let Contents { cables, attachments, records, .. } = &mut *contents;
+        let Some(a) = attachments.get_mut(index) else { continue };
+        let (Some(slot), Some(body)) = (cables.get(cable), world.bodies.get(a.body)) else { continue };
         let anchor = match records.get(a.body).and_then(|record| record.exact.as_ref()) {
             Some(exact) => exact.point(&(a.anchor - vector(body.local_center_of_mass()))),
             None => vector(body.translation()) + rotation(*body.rotation()) * a.anchor,

@@ -8,6 +8,7 @@
 
 use crate::body::pose::OriginPose;
 use crate::body::prescribed_motion::PrescribedMotions;
+use crate::contact::pull::pull;
 use crate::contents::Contents;
 use crate::contents::attachment::Attachment;
 use crate::error::Error;
@@ -15,7 +16,6 @@ use crate::islands::{Island, Member};
 use crate::step::prediction::StepParameters;
 use ::nalgebra::{Matrix3, Vector3};
 use lariat_ancf::Motion;
-use lariat_ancf::coupling::Coupling;
 use lariat_ancf::island::{RigidBody, closing_share};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::pipeline::PhysicsWorld;
@@ -98,14 +98,16 @@ pub(crate) fn prescribe(
 /// Reads force, gap and work at the supported nodes of an island after a step.
 pub(crate) fn read(contents: &mut Contents, world: &PhysicsWorld, island: &Island) {
     for &index in &island.supports {
+        let Some(a) = contents.attachments.get(index) else { continue };
+        let (cable, node) = (a.cable.0 as usize, a.node);
+        let (force, _) = pull(contents, cable, node);
         let Some(a) = contents.attachments.get_mut(index) else { continue };
-        let Some(slot) = contents.cables.get_mut(a.cable.0 as usize) else { continue };
+        let Some(slot) = contents.cables.get(cable) else { continue };
         if !world.bodies.contains(a.body) {
             continue;
         }
         let (origin, attitude) = contents.records.place(world, a.body);
         let anchor = origin + attitude * a.anchor;
-        let (force, _) = slot.cable.pull(a.node);
         let mean = 0.5 * (a.reading.force + force);
         let gap = slot.cable.node_position(a.node) - anchor;
         let before = a.last_anchor.replace(anchor).unwrap_or(anchor);

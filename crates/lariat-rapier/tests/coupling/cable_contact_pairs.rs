@@ -5,7 +5,7 @@ use lariat_ancf::coupling::Coupling;
 use lariat_rapier::lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, PointLoad, Section, Vector3};
 use lariat_rapier::rapier::math::Vector as RVector;
 use lariat_rapier::rapier::prelude::*;
-use lariat_rapier::{CableHandle, CableSet, ContactRules};
+use lariat_rapier::{AttachmentKind, CableHandle, CableSet, ContactRules};
 
 const RADIUS: f64 = 5e-3;
 
@@ -114,6 +114,42 @@ fn a_rope_falls_over_another_and_hangs_on_it() {
             deepest(&cables)
         );
         assert!((up / weight - 1.0).abs() < 0.02 && made < 1e-8 * weight, "{up} {weight} {made:e}");
+    }
+}
+
+/// The bodies that hold a rope bear it and the rope that hangs on it beside one of them, within the last element, whichever of both was made first.
+///
+/// *Source.* Balance of forces and of moments; the couple of friction between both, which is not in it, is at most mu N r over an element.
+#[test]
+fn what_holds_a_rope_bears_what_hangs_on_it() {
+    for (elements, at, held_first) in [(4, 0.42, true), (4, 0.42, false), (10, 0.44, true), (6, -0.4, false)] {
+        let mut world = PhysicsWorld::new();
+        let mut cables = CableSet::new();
+        let hold = |cables: &mut CableSet| {
+            let held = rope(Vector3::x() * -0.5, Vector3::x() * 0.5, elements);
+            touching(cables, held, 0.5)
+        };
+        let first = held_first.then(|| hold(&mut cables));
+        let points = [[-0.4, -0.035], [0.03, -0.035], [0.06, 0.0], [0.03, 0.035], [-0.4, 0.035]]
+            .map(|[y, z]| Vector3::new(at, y, z));
+        let section = Section::from_stiffness(1e6, 1e-2, 0.14).unwrap();
+        let bent = Cable::builder().points(points).section(section).elements(24);
+        let hung = touching(&mut cables, bent.damping(Damping { axial: 1e-2, bending: 3e-2 }), 0.5);
+        let held = first.unwrap_or_else(|| hold(&mut cables));
+        let body = world.insert_body(RigidBodyBuilder::fixed());
+        let ends = [(At::Start, -0.5), (At::End, 0.5)];
+        let ends = ends.map(|(end, x)| {
+            cables.attach(&world, held, end, body, RVector::new(x, 0.0, 0.0), AttachmentKind::Ball).unwrap()
+        });
+        (0..2400).for_each(|_| cables.step(&mut world).unwrap());
+        let [one, other] = ends.map(|end| cables.attachment(end).unwrap().reading().force);
+        let [weight, load] = [held, hung].map(|cable| 0.14 * 9.81 * cables.get(cable).unwrap().length());
+        let where_it_hangs = f64::from(at);
+        let share = 0.5 * weight + load * (0.5 + where_it_hangs);
+        println!("{elements} elements, at {at} m: {one:.4?} and {other:.4?} N of {weight} and {load} N");
+        let couple = 0.5 * load * RADIUS * elements as f64;
+        assert!(((one + other).y + weight + load).abs() < couple, "{one} {other}");
+        assert!((-other.y / share - 1.0).abs() < 2e-2, "{other} of {share}");
     }
 }
 

@@ -7,7 +7,7 @@ use crate::physics::BodyState;
 use crate::scene::{AttachmentScene, CableScene};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::OneStep;
-use lariat_ancf::{Cable, Energy, Momentum, Reaction, ReasonCounts, Vector3};
+use lariat_ancf::{Cable, Energy, Momentum, ReasonCounts, Vector3};
 use std::collections::BTreeMap;
 
 impl World {
@@ -176,11 +176,14 @@ impl World {
         let mut coupled = None;
         let behind_kink = self.scene.attachments[index].other_side_of.is_some();
         let (part, arc_length) = if behind_kink { (cable, 0.0) } else { self.part_of(cable, arc_length) };
-        let cable = match self.alone.get_mut(part) {
-            Some(cable) => cable,
-            None => coupled.insert(self.cables()[part].clone()),
+        if self.alone.get(part).is_none() {
+            coupled = Some(self.cables()[part].clone());
+        }
+        let (force, moment) = match (&mut coupled, self.alone.get_mut(part)) {
+            (None, Some(cable)) => pull(cable, arc_length, &[])?,
+            (Some(cable), _) => pull(cable, arc_length, &self.cables())?,
+            _ => Default::default(),
         };
-        let (force, moment) = pull(cable, arc_length)?;
         Ok((force, moment, 0.0))
     }
 }
@@ -190,12 +193,18 @@ fn dissipated(cable: &Cable) -> f64 {
     cable.effect_work().dissipated() + cable.energy_law().dissipated()
 }
 
-/// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one.
-pub(super) fn pull(cable: &mut Cable, arc_length: f64) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
-    let node = cable.node(arc_length)?;
-    let held = |reaction: &&Reaction| reaction.node == node;
-    let on_cable = cable.reactions()?.iter().find(held).map(|r| (r.force, r.moment));
-    let (force, moment) = on_cable.unwrap_or_default();
+/// Returns force (N) and moment (N m) of a cable, among all with which it may have contacts, on its support at an arc length; zero without
+/// one.
+pub(super) fn pull(cable: &mut Cable, arc_length: f64, all: &[&Cable]) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+    let (node, key) = (cable.node(arc_length)?, cable.contact_key());
+    let Some(held) = cable.reactions()?.into_iter().find(|reaction| reaction.node == node) else {
+        return Ok(Default::default());
+    };
     // 0 - 0 is 0, not -0
-    Ok((Vector3::zeros() - force, Vector3::zeros() - moment))
+    let own = (Vector3::zeros() - held.force, Vector3::zeros() - held.moment);
+    let others = all.iter().filter(|other| other.contact_key() != key).flat_map(|other| {
+        let kept = other.cable_contacts().filter(|touch| touch.other == key);
+        kept.map(|touch| cable.share_of_contact(node, &touch.mirrored(other.contact_key())))
+    });
+    Ok(others.fold(own, |(force, moment), share| (force + share.0, moment + share.1)))
 }

@@ -14,7 +14,7 @@ use crate::scene::water::without_wave;
 use crate::scene::{Purpose, Scene};
 use crate::warning::Warning;
 use lariat_ancf::coupling::Coupling;
-use lariat_ancf::{At, AxialRule, Cable, EquilibriumReport, Support};
+use lariat_ancf::{At, AxialRule, Cable, Effects, EquilibriumReport, Support};
 
 impl World {
     /// Brings the cables to their start: static equilibrium where the scene asks for it, with
@@ -57,7 +57,13 @@ impl World {
                 let report = match physics {
                     Some(physics) if !settles => Some(physics.equilibrium_among(scene, cable)?),
                     // where statics of all begin, on the side on which it was drawn, or as drawn
-                    Some(physics) if cable.effects().contact.is_some() => physics.equilibrium_among(scene, cable).ok(),
+                    Some(physics) if cable.effects().contact.is_some() => {
+                        let found = physics.equilibrium_among(scene, cable).ok();
+                        if found.is_none() && !scene.reaches_anchors(cable, i) {
+                            hang(cable)?;
+                        }
+                        found
+                    }
                     _ => Some(cable.equilibrium()?),
                 };
                 *static_iterations += report.map_or(0, |report| report.iterations as u64);
@@ -155,9 +161,10 @@ impl World {
     /// Reads the equilibrium of each cable.
     fn read_statics(&mut self, reports: &[EquilibriumReport]) -> Result<(), Error> {
         // copies, because reading reactions modifies a cable
-        let mut cables: Vec<Cable> = self.cables().into_iter().cloned().collect();
+        let all = self.cables();
+        let mut cables: Vec<Cable> = all.iter().map(|&cable| cable.clone()).collect();
         let each = cables.iter_mut().zip(reports).enumerate();
-        let read = each.map(|(i, (cable, report))| CableStatics::read(&self.scene, i, cable, report));
+        let read = each.map(|(i, (cable, report))| CableStatics::read(&self.scene, i, (cable, &all), report));
         self.statics = Some(read.collect::<Result<Vec<_>, _>>()?);
         Ok(())
     }
@@ -172,13 +179,24 @@ fn release(
 ) -> Result<(), Error> {
     let by_bodies = |k: &usize| scene.attachments[*k].cable == index && scene.attachments[*k].body.is_some();
     for k in (0..scene.attachments.len()).filter(by_bodies) {
-        held_by[k] = pull(cable, scene.attachments[k].arc_length)?;
+        held_by[k] = pull(cable, scene.attachments[k].arc_length, &[])?;
     }
     for k in (0..scene.attachments.len()).filter(by_bodies) {
         cable.set_support(At::ArcLength(scene.attachments[k].arc_length), Support::default())?;
     }
     for &(_, arc_length) in scene.tied(index) {
         cable.set_support(At::ArcLength(arc_length), Support::default())?;
+    }
+    Ok(())
+}
+
+/// Hangs a cable from its anchors as if it touched nothing, if that has an equilibrium: statics of
+/// all begin there.
+fn hang(cable: &mut Cable) -> Result<(), Error> {
+    let mut free = cable.clone();
+    free.set_effects(Effects { contact: None, ..free.effects().clone() })?;
+    if free.equilibrium().is_ok() {
+        cable.set_coordinates(free.positions(), free.velocities())?;
     }
     Ok(())
 }

@@ -102,14 +102,14 @@ impl BodyStatics {
 }
 
 impl CableStatics {
-    /// Reads a cable in equilibrium.
+    /// Reads a cable in equilibrium, among `all` of the scene.
     ///
     /// # Errors
     /// [`Error::Mechanics`] if a reaction cannot be computed; not for an equilibrium.
     pub(super) fn read(
         scene: &Scene,
         index: usize,
-        cable: &mut Cable,
+        (cable, all): (&mut Cable, &[&Cable]),
         report: &EquilibriumReport,
     ) -> Result<Self, Error> {
         let attachments = scene.attachments.iter().filter(|a| a.cable == index);
@@ -135,7 +135,7 @@ impl CableStatics {
         let sag_m = sag(cable, &supports, &scene.gravity)?;
         let mut reactions = Vec::new();
         for (name, at_m) in held {
-            let (force, moment) = super::readings::pull(cable, at_m)?;
+            let (force, moment) = super::readings::pull(cable, at_m, all)?;
             reactions.push(StaticReaction { name, at_m, force_n: force.into(), moment_nm: moment.into() });
         }
         Ok(CableStatics {

@@ -3,6 +3,7 @@
 use super::{AttachmentScene, LoadScene, Scene};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Error, Motion, PointLoad, Vector3};
+use lariat_rapier::Gap;
 
 impl Scene {
     /// Builds a cable as drawn, supported at its attachments and junctions, without loads, sheaves and drums.
@@ -112,6 +113,15 @@ impl Scene {
             cable.set_support(attachment.arc_length, support)?;
         }
         Ok(())
+    }
+
+    /// Returns whether a cable is no further from its anchors than their gaps allow.
+    pub fn reaches_anchors(&self, cable: &Cable, index: usize) -> bool {
+        self.attachments.iter().filter(|a| a.cable == index).all(|a| {
+            let (Gap::Refuse(limit), Some(anchor)) = (a.gap, self.anchor(a)) else { return true };
+            let point = cable.node(a.arc_length).map(|node| cable.node_position(node));
+            point.is_ok_and(|point| (point - anchor).norm() <= limit)
+        })
     }
 
     /// Sets a cable that is in equilibrium in motion, if the scene says so; with `ramps`, adds the loads that have one.

@@ -124,6 +124,35 @@ fn a_load_on_two_slings_balances_with_loads_at_its_points() {
     assert!(force.norm() < 1e-3 && moment.norm() < 1e-2, "{force:?} {moment:?}");
 }
 
+/// A plank on two ropes that are drawn past it, with contact and without, is found in the same place, 0.4 m below where they hold it.
+///
+/// *Source.* Both halves of a rope are straight under a load of 32 times its weight, to 1 % of the sag.
+#[test]
+fn a_plank_is_found_that_its_ropes_are_not_drawn_to() {
+    let rope = |z: f64, contact: &str| {
+        let end = |at: &str, body: &str, anchor: String| {
+            format!("[[attachment]]\ncable = \"r{z}\"\nat = {at}\nbody = \"{body}\"\n{anchor}")
+        };
+        format!(
+            "[[cable]]\nname = \"r{z}\"\npoints = [[0.0, 0.0, {z:?}], [6.0, 0.0, {z:?}]]\nlength = 6.4\nelements = 16\nsection = {{ round = 0.03 }}\n\
+             density = 1400.0\nyoungs_modulus = 2e9\n{contact}{}{}{}",
+            end("\"start\"", "world", String::new()),
+            end("\"end\"", "world", String::new()),
+            end("3.2", "plank", format!("anchor = [0.0, 0.4, {z:?}]\n"))
+        )
+    };
+    let scene = |contact: &str| {
+        let plank = "[[body]]\nname = \"plank\"\nshape = { cuboid = [0.2, 0.02, 0.6] }\nmass = 400.0\nposition = [3.1, -1.2, 0.0]\n";
+        format!("{plank}{}{}[[probe]]\nname = \"place\"\nbody = \"plank\"\n", rope(-0.5, contact), rope(0.5, contact))
+    };
+    let place = |contact: &str| row(&solve(&scene(contact)).unwrap().1[0]);
+    let (without, with) = (place(""), place("contact = { friction = 0.4 }\n"));
+    println!("{without:?}\n{with:?}");
+    let sag = (3.2f64.powi(2) - 3.0f64.powi(2)).sqrt();
+    assert!((without[1] - 3.0).abs() < 1e-6 && (without[2] + 0.4 + sag).abs() < 0.01 * sag, "{without:?}");
+    assert!(without.iter().zip(&with).all(|(a, b)| (a - b).abs() < 1e-6), "{without:?} and {with:?}");
+}
+
 /// A box that reaches the floor rests on it by its motion; with a ball that rolls off the edge of the floor the world never rests, and what
 /// touches is named.
 ///
