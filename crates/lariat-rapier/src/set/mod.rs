@@ -264,8 +264,14 @@ impl CableSet {
         drawn: &[(CableHandle, Cable)],
     ) -> Result<Equilibrium, Error> {
         world_mark::check(&mut self.contents, world)?;
+        slack::draw_all_outside(&mut self.contents, world)?;
+        let own = |(handle, cable): &(CableHandle, Cable)| {
+            let turned = slack::outside(&self.contents, world, (*handle, cable));
+            (*handle, turned.unwrap_or_else(|| cable.clone()))
+        };
+        let drawn: Vec<_> = drawn.iter().map(own).collect();
         let options = EquilibriumOptions::default();
-        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, (forces, drawn), options)
+        statics::equilibrium(&mut self.contents, &mut self.stepper.finder, world, (forces, &drawn), options)
     }
 
     /// Looks whether cables are on the side of what they touch on which they were `drawn`: after

@@ -47,22 +47,31 @@ pub(super) fn draw_all_outside(contents: &mut Contents, world: &PhysicsWorld) ->
 /// Turns a slack cable out of the bodies that it is attached to, if it runs through one.
 pub(super) fn draw_outside(contents: &mut Contents, world: &PhysicsWorld, handle: CableHandle) -> Result<(), Error> {
     let Some(slot) = contents.cables.get(handle.0 as usize) else { return Ok(()) };
-    if slot.cable.effects().contact.is_none() || !slot.cable.can_turn_slack() {
-        return Ok(());
-    }
-    let touched = world.colliders.iter().map(|(_, c)| c).filter(|c| !c.is_sensor() && slot.rules.allow(c));
-    let near: Vec<Near<'_>> = touched
-        .map(|collider| Near { collider, except: held_beside(contents, handle, &slot.cable, collider) })
-        .collect();
-    // what it is attached to has such pieces
-    let own = |near: &&Near<'_>| !near.except.is_empty();
-    if !near.iter().filter(own).any(|near| runs_through(&slot.cable, near)) {
-        return Ok(());
-    }
-    let best = LEADS.iter().find_map(|lead| clearest(&slot.cable, &near, *lead));
-    let Some(cable) = best else { return Ok(()) };
+    let Some(cable) = outside(contents, world, (handle, &slot.cable)) else { return Ok(()) };
     *contents.cable_mut(handle)? = cable;
     Ok(())
+}
+
+/// Returns a slack cable turned out of the bodies to which the one in the set is attached; `None`
+/// if it runs through none, or cannot be turned out.
+pub(super) fn outside(
+    contents: &Contents,
+    world: &PhysicsWorld,
+    (handle, drawn): (CableHandle, &Cable),
+) -> Option<Cable> {
+    let slot = contents.cables.get(handle.0 as usize)?;
+    if drawn.effects().contact.is_none() || !drawn.can_turn_slack() {
+        return None;
+    }
+    let touched = world.colliders.iter().map(|(_, c)| c).filter(|c| !c.is_sensor() && slot.rules.allow(c));
+    let near: Vec<Near<'_>> =
+        touched.map(|collider| Near { collider, except: held_beside(contents, handle, drawn, collider) }).collect();
+    // what it is attached to has such pieces
+    let own = |near: &&Near<'_>| !near.except.is_empty();
+    if !near.iter().filter(own).any(|near| runs_through(drawn, near)) {
+        return None;
+    }
+    LEADS.iter().find_map(|lead| clearest(drawn, &near, *lead))
 }
 
 fn runs_through(cable: &Cable, near: &Near<'_>) -> bool {
