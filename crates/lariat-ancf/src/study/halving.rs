@@ -36,7 +36,7 @@ use super::order::{self, Difference};
 use super::record::Record;
 use super::runs::{Resolution, Run, Runs, Span};
 use super::time::{Pilots, Time};
-use crate::scales::study::{AT_LEAST, LOOSER, MOST_HALVINGS, SECOND, SHARE};
+use crate::scales::study::{AT_LEAST, LOOSER, MOST_HALVINGS, SECOND, SHARE, SMALL};
 
 /// The runs of two meshes, and their error in time.
 pub(super) type Pair<W> = (Run<W>, Run<W>, Time);
@@ -90,7 +90,7 @@ impl<F> Runs<F> {
             let distance = loose.record.distance(&fine.record)?;
             differences.push(Difference { distance, ratio: 2.0 });
             time.error = error_of_last(&differences);
-            time.horizon = loose.record.first_beyond(&fine.record, allowed * distance / time.error);
+            time.horizon = self.not_together(&loose, &fine, allowed * distance / time.error);
             proven = time.error <= allowed && order::converge(&differences, AT_LEAST, self.error);
             if !proven && order::stuck(&differences) {
                 break;
@@ -139,7 +139,7 @@ impl<F> Runs<F> {
             }
             if time.halvings >= Some(MOST_HALVINGS) || order::stuck(&differences) {
                 time.stuck = true;
-                time.horizon = loose.record.first_beyond(&fine.record, left * distance / time.error);
+                time.horizon = self.not_together(&loose, &fine, left * distance / time.error);
                 break;
             }
             let halved = time.halved(time.halvings.unwrap_or(0) + 1);
@@ -161,6 +161,13 @@ impl<F> Runs<F> {
                 Ok((coarse, fine, time))
             }
         }
+    }
+
+    /// Returns the first time in s at which two runs are further apart than a distance in m, or, where
+    /// they are near each other and come no closer, than is small beside the error.
+    fn not_together<W>(&self, loose: &Run<W>, fine: &Run<W>, distance: f64) -> Option<f64> {
+        let beyond = |distance: f64| loose.record.first_beyond(&fine.record, distance);
+        beyond(distance).or_else(|| beyond(SMALL * self.error))
     }
 
     /// Returns the error in time where the run that should show it failed.

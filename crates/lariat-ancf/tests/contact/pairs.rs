@@ -4,6 +4,7 @@ use crate::bench::{GRAVITY, MASS, RADIUS, rope, run, steps, up};
 use crate::bodies::World;
 use crate::common::Random;
 use lariat_ancf::contact::{HalfSpace, Obstacle};
+use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, CableBuilder, Contact, Damping, Drag, Flow, Motion, PointLoad, Section, Vector3};
 
 /// Gives it contact with other cables.
@@ -293,10 +294,8 @@ fn an_overhand_knot_holds() {
     }
 }
 
-/// Pulls a knot tight within a time in s.
-fn pull_a_knot(friction: f64, elements: usize, time: f64) {
-    // an open trefoil, with its ends drawn out
-    let size = 0.06;
+/// Points of an open trefoil of a size in m, with its ends drawn out.
+fn overhand_knot(size: f64) -> Vec<Vector3<f64>> {
     let knot = |t: f64| {
         Vector3::new(t.sin() + 2.0 * (2.0 * t).sin(), t.cos() - 2.0 * (2.0 * t).cos(), -0.7 * (3.0 * t).sin()) * size
     };
@@ -308,8 +307,13 @@ fn pull_a_knot(friction: f64, elements: usize, time: f64) {
     let out = |x: Vector3<f64>, y: Vector3<f64>| x + (x - y).normalize() * 0.5;
     points.insert(0, out(first, points[1]));
     points.push(out(last, points[points.len() - 2]));
-    let n = points.len();
-    let away = points[n - 1];
+    points
+}
+
+/// Pulls a knot tight within a time in s.
+fn pull_a_knot(friction: f64, elements: usize, time: f64) {
+    let points = overhand_knot(0.06);
+    let away = points[points.len() - 1];
     let builder = rope(1e-2, &points, elements).gravity(Vector3::zeros()).fix(At::Start);
     let mut cable = touching(builder, friction);
     let towards = (away - points[0]).normalize();
@@ -338,6 +342,48 @@ fn pull_a_knot(friction: f64, elements: usize, time: f64) {
     assert!(after < cable.length() - 0.05, "no knot");
     assert!((after - before).abs() < 0.005 * before, "{before} {after}");
     assert!(crossed == 0 && deepest(&cable) < 2.0, "{crossed}");
+}
+
+/// The loop of an overhand knot that is drawn tighter has the force of the theory of thin rods, F h^2/B = eps^4/2 + 0.492 mu eps^3 with
+/// eps = sqrt(h/R), h the radius of the rope, and R that of the loop opposite of the crossing.
+///
+/// *Source.* Audoly, Clauvelin & Neukirch, Elastic knots, PRL 99 (2007) 164301. It is of leading order: strands that wind about each other by 1.5
+/// turns at an angle of some 2 eps hold by exp(18 mu eps) as a capstan, so that mu is at most 0.1.
+#[test]
+fn the_loop_of_a_knot_has_the_force_of_its_theory() {
+    let long = std::env::var_os("LARIAT_LONG_TESTS").is_some();
+    let ei = 1e-2;
+    for (friction, elements) in
+        [(0.1, 200), (0.0, 200), (0.05, 200), (0.1, 260)].into_iter().take(if long { 4 } else { 1 })
+    {
+        let points = overhand_knot(0.06);
+        let end = points[points.len() - 1];
+        let towards = (end - points[0]).normalize();
+        let builder = weightless(ei, &points, elements).fix(At::Start).fix(At::End);
+        let mut cable = touching(builder.damping(Damping { axial: 1e-2, bending: 0.1 }), friction);
+        cable.set_motion(elements, Motion::uniform(0.0, end, towards * 0.05)).unwrap();
+        let (mut worst, mut last) = (0.0f64, 0.0);
+        // what it is drawn with until the loop has come from its drawing to its shape
+        (0..600).for_each(|_| cable.step(1.0 / 60.0).map(|_| ()).unwrap());
+        while last < 0.33 {
+            let [mut force, mut eps] = [0.0, 0.0];
+            for _ in 0..60 {
+                cable.step(1.0 / 60.0).unwrap();
+                let arcs = cable.cable_contacts().flat_map(|touch| [touch.arc_length, touch.other_arc_length]);
+                let (from, to) = arcs.fold((f64::INFINITY, 0.0f64), |(low, high), s| (low.min(s), high.max(s)));
+                let curvature =
+                    |i: usize| cable.sample(from + (to - from) * (0.45 + 0.01 * i as f64)).unwrap().curvature.norm();
+                eps += (RADIUS * (0..=10).map(curvature).sum::<f64>() / 11.0).sqrt() / 60.0;
+                force += cable.pull(0).0.dot(&towards) / 60.0;
+            }
+            let theory = ei / RADIUS.powi(2) * (0.5 * eps.powi(4) + 0.492 * friction * eps.powi(3));
+            println!("mu {friction}, {elements} elements: eps {eps:.4}, {force:.3} N of {theory:.3} N");
+            worst = worst.max((force / theory - 1.0).abs());
+            assert!(eps > last, "{eps} after {last}");
+            last = eps;
+        }
+        assert!(worst < 0.15 && cable.diagnostics().crossed_steps == 0, "{worst}");
+    }
 }
 
 /// Two ropes that hang across each other without friction, the upper one on the lower one: the force between them is that of the elastica, the contact

@@ -104,7 +104,8 @@ impl ErrorClaim {
         match outcome {
             Outcome::Proven => None,
             Outcome::NoConvergence => {
-                Some(Warning::NoConvergence { asked_m, estimate_m, elements, horizon_s, other_branch, failed })
+                let steps = self.claim.time_m > self.claim.mesh_m;
+                Some(Warning::NoConvergence { asked_m, estimate_m, elements, steps, horizon_s, other_branch, failed })
             }
             Outcome::ElementLimit => Some(Warning::ErrorNotReached {
                 asked_m,
@@ -309,6 +310,8 @@ mod tests {
         assert!(text.contains("not proven from 20.5000 s on"), "{text}");
         assert!(text.ends_with("the run with elements = 32 and tolerance 1.0e-8 m failed: step failed"), "{text}");
         claim["failed"] = serde_json::Value::Null;
+        assert!(told(&claim).ends_with("runs with shorter steps do not come closer"), "{}", told(&claim));
+        claim["time_m"] = serde_json::json!(1e-4);
         assert!(told(&claim).ends_with("meshes up to elements = 16 do not come closer"), "{}", told(&claim));
     }
 }

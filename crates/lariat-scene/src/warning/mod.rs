@@ -219,7 +219,7 @@ pub enum Warning {
     /// An error that was asked for is not proven, because refining does not help.
     #[error(
         "the error of {asked_m:e} m is not proven{}: {}{}", until(*.horizon_s, *.estimate_m),
-        failed.clone().unwrap_or_else(|| format!("meshes up to elements = {elements} do not come closer")), branches(*.other_branch)
+        failed.clone().unwrap_or_else(|| apart(*.steps, *.elements)), branches(*.other_branch)
     )]
     NoConvergence {
         /// Error that was asked for in m.
@@ -228,6 +228,9 @@ pub enum Warning {
         estimate_m: Option<f64>,
         /// Elements of the cable that has most.
         elements: usize,
+        /// True if it is runs with shorter steps that do not come closer, and not finer meshes.
+        #[serde(default)]
+        steps: bool,
         /// First host time in s at which the error is not proven.
         horizon_s: Option<f64>,
         /// True if the runs are apart by more than a tenth of the longest cable.
@@ -504,6 +507,15 @@ fn would_need(elements: Option<usize>) -> String {
     elements.map_or(String::from(", the most that are tried"), |n| {
         format!(": by the order that the runs show about {n} would be needed, more than are tried")
     })
+}
+
+/// Says which runs do not come closer.
+fn apart(steps: bool, elements: usize) -> String {
+    if steps {
+        "runs with shorter steps do not come closer".to_string()
+    } else {
+        format!("meshes up to elements = {elements} do not come closer")
+    }
 }
 
 fn branches(other: bool) -> &'static str {

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod drawn;
+mod edges;
 mod levels;
 mod mesh;
 mod prying;

@@ -147,6 +147,11 @@ fn friction_for(share: f64) -> f64 {
     low
 }
 
+fn rope_out(run: &mut Run) -> Result<f64, Error> {
+    run.advance(4.5, |_| ())?;
+    Ok(run.rope().length())
+}
+
 /// Returns the cases.
 pub fn cases() -> Vec<Case> {
     let atwood = |inertia: f64| G / (5.0 + ROPE + inertia / (LEVER * LEVER));
@@ -214,6 +219,7 @@ pub fn cases() -> Vec<Case> {
     // a ball that falls through is 20 m away
     cases.push(case("net", "way of the ball from the middle, m", None, 1.5, way_of_the_ball));
     cases.push(case("net", "energy made, share of the first", None, 1e-6, |run| made_by(2.0, run)));
+    cases.push(case("grapple", "rope out after 3 m are reeled in, m", Some(7.0), 1.5e-4, rope_out));
     cases.push(case("lashed", "way of the crate on the truck, m", None, 5e-3, way_on_the_truck));
     cases
 }

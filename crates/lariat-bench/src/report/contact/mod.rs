@@ -10,6 +10,7 @@
 pub mod beside;
 mod cases;
 mod cost;
+mod iterations;
 mod run;
 
 use super::options::Options;
@@ -108,6 +109,7 @@ pub fn section(_: &Options) -> Result<Section, Error> {
          runs.",
     );
     section.table(cost::table()?);
+    iterations::add(&mut section)?;
     section.text(
         "The same ropes as Rapier itself offers them, with as many particles or capsules as the cable has elements, 60 host steps per second, Rapier's \
          defaults: 3 and 2 kg over a fixed drum of 0.1 m radius, without friction (acceleration) and with friction 0.3, which holds them (slip, CPU time); \
