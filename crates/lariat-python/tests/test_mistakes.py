@@ -142,3 +142,26 @@ def test_of_what_is_right_nothing_is_said() -> None:
     for _ in range(60):
         world.step()
     assert world.warnings() == []
+
+
+def test_a_step_of_a_world_may_have_its_own_length() -> None:
+    """*Source.* Two worlds: one by its ``dt``, one by a step of that length."""
+    (one, first, _), (other, second, _) = yard(), yard()
+    other.dt = 0.5
+    for _ in range(10):
+        one.step()
+        other.step(one.dt)
+    assert (first.positions == second.positions).all() and other.dt == 0.5 and abs(other.time - one.time) < 1e-6
+    for dt in (0.0, -1.0, math.nan):
+        with pytest.raises(errors.InvalidValueError, match="dt"):
+            other.step(dt)
+
+
+def test_names_and_lists_that_are_not_there_are_told() -> None:
+    scene = "duration = 0.1\n[[cable]]\nname = \"c\"\npoints = [[0, 0, 0], [1, 0, 0]]\nsection = { wire_rope = 0.008 }\n[[probe]]\nname = \"hook\"\ncable = \"c\"\nat = \"end\"\n"
+    run = lariat.run(scene)
+    with pytest.raises(KeyError, match="no probe 'hok'; the run has hook"):
+        run.probes["hok"]
+    vary: Any = [{"duration": 0.2}]
+    with pytest.raises(errors.InvalidValueError, match="a list of settings is points"):
+        lariat.sweep(scene, vary)

@@ -544,10 +544,10 @@ class World:
         up to which level ``warnings`` and events warn; by default of cables with fidelity game up to "wrong", of others up to "coarse". Raises
         InvalidValueError, UnknownFidelityError, UnknownKindError."""
 
-    def step(self) -> None:
-        """Advances bodies and cables by ``dt``. The first warning of each kind, before the first step and after each, goes through Python's
-        ``warnings`` as ``errors.ResultWarning``; ``warnings()`` has all. Raises StepRefusedError if some cables cannot step; all others have
-        advanced."""
+    def step(self, dt: float | None = None) -> None:
+        """Advances bodies and cables by ``dt`` (s); without, by that of the world. The first warning of each kind, before the first step and
+        after each, goes through Python's ``warnings`` as ``errors.ResultWarning``; ``warnings()`` has all. Raises InvalidValueError, and
+        StepRefusedError if some cables cannot step; all others have advanced."""
 
     def add_body(self, builder: RigidBodyBuilder, colliders: Sequence[ColliderBuilder] | None = None) -> RigidBodyHandle:
         """Adds a body with its colliders. Raises InvalidValueError, BuilderError."""

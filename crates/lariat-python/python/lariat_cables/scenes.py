@@ -97,6 +97,13 @@ class Probe:
         return f"<Probe: {len(self)} samples of {', '.join(self.columns)}>"
 
 
+class Probes(dict[str, Probe]):
+    """The probes of a run by name."""
+
+    def __missing__(self, name: str) -> Probe:
+        raise KeyError(f"no probe {name!r}; the run has {', '.join(self) or 'none'}")
+
+
 class _Written:
     """The page, the picture, the motion and the state of a run that was pickled."""
 
@@ -119,7 +126,7 @@ class _Written:
 class Run:
     """A run of a scene: ``probes`` by name, ``summary``, ``t``; in a notebook, the animated view."""
 
-    def __init__(self, summary: dict[str, Any], probes: dict[str, Probe], recorded: _lariat.Recorded | _Written) -> None:
+    def __init__(self, summary: dict[str, Any], probes: Probes, recorded: _lariat.Recorded | _Written) -> None:
         self.summary = summary
         """The results and costs, with the keys of summary.json."""
         self.probes = probes
@@ -235,7 +242,7 @@ def _collect(
     total = _duration(text, settings)
     with _Bar(progress and total is not None, total or 0.0, "s") as bar:
         summary, tables, failed, recorded = _lariat.run_scene(name, text, given, statics=statics, error=error, start=state, progress=bar)
-    run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
+    run = Run(summary, Probes({key: Probe(columns, rows) for key, (columns, rows) in tables.items()}), recorded)
     run._rests = statics and failed is None
     for line in run.warnings:
         # the caller of run or statics

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from lariat_cables import _lariat
 from lariat_cables.errors import InvalidValueError
-from lariat_cables.scenes import Probe, Run, SceneLike, _Bar, setting, source
+from lariat_cables.scenes import Probe, Probes, Run, SceneLike, _Bar, setting, source
 
 Series = dict[str, NDArray[np.float64]]
 Reduce = Mapping[str, Callable[[Run], float]]
@@ -144,6 +144,8 @@ def _points(vary: Mapping[str, Iterable[Any]] | None, points: Iterable[Mapping[s
     """Returns the settings of each run."""
     if vary is None and points is None:
         raise InvalidValueError("a sweep needs vary, values by key, or points, a list of settings")
+    if vary is not None and not isinstance(vary, Mapping):
+        raise InvalidValueError("vary is values by key, as {'cable.sling.elements': [10, 20]}; a list of settings is points")
     grid = {key: list(values) for key, values in (vary or {}).items()}
     combinations = [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
     if isinstance(points, Mapping):
@@ -166,7 +168,7 @@ class _Job:
         if kept is None or not (self.reduce or self.series):
             return line, {}
         summary, tables, _, recorded = kept
-        run = Run(summary, {key: Probe(columns, rows) for key, (columns, rows) in tables.items()}, recorded)
+        run = Run(summary, Probes({key: Probe(columns, rows) for key, (columns, rows) in tables.items()}), recorded)
         row = json.loads(line)
         if row["error"] is None:
             row["results"].update({name: _number(name, function(run)) for name, function in self.reduce.items()})

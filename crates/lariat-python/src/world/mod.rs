@@ -137,17 +137,23 @@ impl World {
         Ok(World(Shared::new(contents)))
     }
 
-    /// Advances bodies and cables by ``dt``. The first warning of each kind, before the first step
-    /// and after each, goes through Python's ``warnings`` as ``errors.ResultWarning``;
-    /// ``warnings()`` has all. Raises StepRefusedError if some cables cannot step; all others have
-    /// advanced.
-    fn step(&self, py: Python<'_>) -> PyResult<()> {
+    /// Advances bodies and cables by ``dt`` (s); without, by that of the world. The first warning of
+    /// each kind, before the first step and after each, goes through Python's ``warnings`` as
+    /// ``errors.ResultWarning``; ``warnings()`` has all. Raises InvalidValueError, and
+    /// StepRefusedError if some cables cannot step; all others have advanced.
+    #[pyo3(signature = (dt=None))]
+    fn step(&self, py: Python<'_>, dt: Option<f64>) -> PyResult<()> {
+        let dt = dt.map(|dt| bodies::positive("dt (s)", dt)).transpose()?;
         let (outcome, lines) = self.0.compute(py, |contents| {
             let mut lines = contents.of_start();
             let Contents { world, set, time, script, .. } = contents;
-            let end = *time + f64::from(world.integration_parameters.dt);
+            let own = world.integration_parameters.dt;
+            let step = dt.unwrap_or(own);
+            let end = *time + f64::from(step);
             script.set(world, *time, end);
+            world.integration_parameters.dt = step;
             let outcome = set.step(world);
+            world.integration_parameters.dt = own;
             if matches!(outcome, Ok(()) | Err(Error::StepRefused { .. })) {
                 *time = end;
             }
