@@ -106,6 +106,10 @@ pub(crate) const ROLLING: f64 = 1e-3;
 /// reach is two radii, so it is [`NEAR`] for cables.
 pub(crate) const NEAR_PAIR: f64 = 1.0;
 
+/// Factor on the square of a distance that rounding does not reach. Derived: coordinates of 1 km
+/// are rounded by 1e-13 m, 1e-10 of 1 mm.
+pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
+
 /// Way in reaches from which on the time of touch is looked for. Derived: by less, a centre line
 /// does not pass the other's.
 pub(crate) const FAST: f64 = 0.5;

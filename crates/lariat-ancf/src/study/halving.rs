@@ -163,8 +163,8 @@ impl<F> Runs<F> {
         }
     }
 
-    /// Returns the first time in s at which two runs are further apart than a distance in m, or, where
-    /// they are near each other and come no closer, than is small beside the error.
+    /// Returns the first time in s at which two runs are further apart than a distance in m, or,
+    /// where they are near each other and come no closer, than is small beside the error.
     fn not_together<W>(&self, loose: &Run<W>, fine: &Run<W>, distance: f64) -> Option<f64> {
         let beyond = |distance: f64| loose.record.first_beyond(&fine.record, distance);
         beyond(distance).or_else(|| beyond(SMALL * self.error))

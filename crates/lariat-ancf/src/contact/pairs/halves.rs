@@ -21,20 +21,34 @@
 
 use super::chords::Piece;
 use crate::element::shape::{combine, second_derivative};
-use crate::scales::contact::{APART, FEW, NEAR_PAIR};
+use crate::scales::contact::{APART, FEW, NEAR_PAIR, ROUNDED};
 use core::f64::consts::SQRT_2;
 use core::ops::Range;
 use nalgebra::Vector3;
 
 /// Two elements, of which chords can touch.
-pub(super) struct Near<'a> {
+pub(super) struct Near<'a, 'p> {
     pub pieces: [Piece<'a>; 2],
+    /// Their chords.
+    pub chords: [&'p [Chord]; 2],
     /// Arc lengths in m at which they begin.
     pub from: [f64; 2],
     /// Sum of the radii in m.
     pub reach: f64,
     /// Whether they are of one strand.
     pub same: bool,
+}
+
+/// A chord at the beginning of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chord {
+    /// Its ends, each with its change over the step.
+    ends: [[Vector3<f64>; 2]; 2],
+    middle: Vector3<f64>,
+    /// Half of its length in m.
+    half: f64,
+    /// Largest way of its ends in m.
+    way: f64,
 }
 
 /// Two chords at the beginning of a step, with their changes.
@@ -51,9 +65,21 @@ pub(super) struct ChordPair {
     pub along: f64,
 }
 
-impl Near<'_> {
-    fn place(&self, k: usize, chord: usize) -> [Vector3<f64>; 2] {
-        self.pieces[k].place(chord as f64 / self.pieces[k].chords as f64)
+/// Adds the chords of an element.
+pub(super) fn chords(piece: &Piece<'_>, into: &mut Vec<Chord>) {
+    let mut start = piece.place(0.0);
+    for end in 1..=piece.chords {
+        let ends = [start, piece.place(end as f64 / piece.chords as f64)];
+        let [[a, da], [b, db]] = ends;
+        into.push(Chord { ends, middle: 0.5 * (a + b), half: 0.5 * (b - a).norm(), way: da.norm().max(db.norm()) });
+        start = ends[1];
+    }
+}
+
+impl Near<'_, '_> {
+    /// Returns the ends of a part of an element.
+    fn ends(&self, k: usize, part: &Range<usize>) -> [[Vector3<f64>; 2]; 2] {
+        [self.chords[k][part.start].ends[0], self.chords[k][part.end - 1].ends[1]]
     }
 
     fn arc(&self, k: usize, chord: usize, at: f64) -> f64 {
@@ -66,9 +92,15 @@ impl Near<'_> {
         [self.arc(0, i, at[0]), self.arc(1, j, at[1])]
     }
 
-    pub fn chords(&self, [i, j]: [usize; 2]) -> ChordPair {
-        let one = [self.place(0, i), self.place(0, i + 1)];
-        let other = [self.place(1, j), self.place(1, j + 1)];
+    /// Returns whether two chords are further apart than both move, whatever their directions.
+    fn are_far(&self, [i, j]: [usize; 2]) -> bool {
+        let (a, b) = (&self.chords[0][i], &self.chords[1][j]);
+        let reach = a.half + b.half + a.way + b.way + self.reach * (1.0 + NEAR_PAIR);
+        (a.middle - b.middle).norm_squared() > ROUNDED * reach * reach
+    }
+
+    pub fn pair(&self, [i, j]: [usize; 2]) -> ChordPair {
+        let (one, other) = (self.chords[0][i].ends, self.chords[1][j].ends);
         let ([a0, a1], [b0, b1]) = (one, other);
         let relative = |p: [Vector3<f64>; 2], q: [Vector3<f64>; 2]| (p[1] - q[1]).norm();
         let way = relative(a0, b0).max(relative(a0, b1)).max(relative(a1, b0)).max(relative(a1, b1));
@@ -95,7 +127,7 @@ pub(super) struct Halves {
 impl Halves {
     /// Finds the chords of two elements that are near each other at some time of the step, and
     /// returns the number of tests.
-    pub fn find(&mut self, near: &Near<'_>) -> u64 {
+    pub fn find(&mut self, near: &Near<'_, '_>) -> u64 {
         self.found.clear();
         self.open.clear();
         self.open.push(near.pieces.map(|piece| 0..piece.chords));
@@ -114,7 +146,10 @@ impl Halves {
                 tests += (one.len() * other.len()) as u64;
                 for i in one {
                     for j in other.clone() {
-                        let chords = near.chords([i, j]);
+                        if near.are_far([i, j]) {
+                            continue;
+                        }
+                        let chords = near.pair([i, j]);
                         let is_near = chords.apart <= chords.size + chords.way + near.reach * (1.0 + NEAR_PAIR);
                         if is_near && !near.is_joined(&chords) {
                             self.found.push([i, j]);
@@ -136,11 +171,11 @@ impl Halves {
     }
 }
 
-impl Near<'_> {
+impl Near<'_, '_> {
     /// Returns whether parts of the elements hold no chords that are near each other; `bends` are
     /// the largest second derivatives of both elements.
     fn are_apart(&self, parts: [&Range<usize>; 2], bends: &[[f64; 2]; 2]) -> bool {
-        let ends = [0, 1].map(|k| [self.place(k, parts[k].start), self.place(k, parts[k].end)]);
+        let ends = [0, 1].map(|k| self.ends(k, parts[k]));
         let sagitta = |k: usize, of: usize| {
             let length = parts[k].len() as f64 * self.pieces[k].length / self.pieces[k].chords as f64;
             0.125 * length * length * bends[k][of]
@@ -198,7 +233,7 @@ mod tests {
     #[test]
     fn halves_find_what_all_pairs_do() {
         let (cable, mut next) = (cable(2), random());
-        let (mut halves, mut tests, mut all, mut found) = (Halves::default(), 0, 0, 0);
+        let (mut halves, mut tests, mut compared, mut found) = (Halves::default(), 0, 0, 0);
         for round in 0..200 {
             let way = [0.0, 0.01, 0.5][round % 3];
             let q: Vec<f64> = (0..18).map(|_| next()).collect();
@@ -207,24 +242,30 @@ mod tests {
             let strand =
                 Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], damped: 0.0, passed: 0.0 };
             let pieces = [Piece::new(strand, 0), Piece::new(strand, 1)];
-            let near = Near { pieces, from: [0.0, 1.0], reach: 0.04, same: round % 2 == 0 };
+            let all = pieces.map(|piece| {
+                let mut own = Vec::new();
+                chords(&piece, &mut own);
+                own
+            });
+            let [one, other] = &all;
+            let near = Near { pieces, chords: [one, other], from: [0.0, 1.0], reach: 0.04, same: round % 2 == 0 };
             tests += halves.find(&near);
             let mut expected = Vec::new();
             for i in 0..pieces[0].chords {
                 for j in 0..pieces[1].chords {
-                    let chords = near.chords([i, j]);
+                    let chords = near.pair([i, j]);
                     let reach = chords.size + chords.way + near.reach * (1.0 + NEAR_PAIR);
                     if chords.apart <= reach && !near.is_joined(&chords) {
                         expected.push([i, j]);
                     }
-                    all += 1;
+                    compared += 1;
                 }
             }
             assert_eq!(halves.found, expected, "{round}");
             found += expected.len();
         }
-        println!("{found} of {all} chords are near: {tests} tests");
-        assert!(found > 1000 && 2 * tests < all, "{found} {tests} {all}");
+        println!("{found} of {compared} chords are near: {tests} tests");
+        assert!(found > 1000 && 2 * tests < compared, "{found} {tests} {compared}");
     }
 
     /// Elements that are left out because they follow each other straight have no points eight

@@ -15,9 +15,10 @@
 use super::boxes::{Boxes, Place};
 use super::chords::{Piece, closest, refine};
 use super::crossing::crossing;
-use super::halves::{ChordPair, Halves, Near};
+use super::halves::{Chord, ChordPair, Halves, Near, chords};
 use super::strands::Strands;
 use crate::scales::contact::{ADVANCES, APART, FAST, LEAST_ADVANCE, ONE, TILT};
+use core::ops::Range;
 use nalgebra::Vector3;
 
 /// Chords that can touch, with the closest points.
@@ -44,11 +45,55 @@ pub(crate) struct Crossed {
     pub arcs: [f64; 2],
 }
 
+/// The chords of those elements that were asked for, by strand and element.
+#[derive(Clone, Debug, Default)]
+struct Chords {
+    /// Where those of an element begin, and one more; 0 of one that was not asked for.
+    begin: Vec<Vec<usize>>,
+    list: Vec<Chord>,
+}
+
+impl Chords {
+    fn clear(&mut self, strands: &Strands<'_, '_>) {
+        self.list.clear();
+        self.begin.resize_with(strands.count, Vec::new);
+        for (strand, begin) in self.begin.iter_mut().enumerate() {
+            begin.clear();
+            begin.resize((strands.get)(strand).model.elements.len(), 0);
+        }
+    }
+
+    /// Returns where those of an element are in the list.
+    fn of(&mut self, strand: usize, piece: &Piece<'_>) -> Range<usize> {
+        let begin = &mut self.begin[strand][piece.element];
+        if *begin == 0 {
+            *begin = self.list.len() + 1;
+            chords(piece, &mut self.list);
+        }
+        *begin - 1..*begin - 1 + piece.chords
+    }
+
+    /// Returns two elements, whose chords are compared.
+    fn pair<'a>(&mut self, strands: &Strands<'_, 'a>, own: &[Place; 2]) -> Near<'a, '_> {
+        let [first, second] = own;
+        let pieces = own.map(|own| Piece::new((strands.get)(own.strand), own.element));
+        let [a, b] = [0, 1].map(|k| self.of(own[k].strand, &pieces[k]));
+        Near {
+            pieces,
+            chords: [&self.list[a], &self.list[b]],
+            from: [first.from, second.from],
+            reach: first.radius + second.radius,
+            same: first.strand == second.strand,
+        }
+    }
+}
+
 /// Buffers of the search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Search {
     elements: Boxes,
-    chords: Halves,
+    chords: Chords,
+    halves: Halves,
     /// Number of tests of whether pieces of cables are near each other.
     pub tests: u64,
     pub found: Vec<Candidate>,
@@ -59,12 +104,12 @@ impl Search {
     pub fn run(&mut self, strands: &Strands<'_, '_>, near: f64) {
         self.found.clear();
         self.find_near(strands);
-        for k in 0..self.elements.near.len() {
-            let own = self.elements.near[k];
-            let pair = pair(strands, &own);
-            self.tests += self.chords.find(&pair);
-            for i in 0..self.chords.found.len() {
-                self.compare(strands, &own, &pair, self.chords.found[i], near);
+        self.chords.clear(strands);
+        for own in &self.elements.near {
+            let pair = self.chords.pair(strands, own);
+            self.tests += self.halves.find(&pair);
+            for chords in &self.halves.found {
+                compare(&mut self.found, strands, own, &pair, *chords, near);
             }
         }
     }
@@ -76,13 +121,13 @@ impl Search {
 
     /// Returns the first place found where centre lines go through each other in the step.
     pub fn crossing(&mut self, strands: &Strands<'_, '_>) -> Option<Crossed> {
-        for k in 0..self.elements.near.len() {
-            let own = self.elements.near[k];
-            let pair = pair(strands, &own);
-            self.tests += self.chords.find(&pair);
+        self.chords.clear(strands);
+        for own in &self.elements.near {
+            let pair = self.chords.pair(strands, own);
+            self.tests += self.halves.find(&pair);
             let names = own.map(|own| own.strand);
             let crosses = |chords: &[usize; 2]| -> Option<Crossed> {
-                let ChordPair { one: [a0, a1], other: [b0, b1], size, way, apart, along } = pair.chords(*chords);
+                let ChordPair { one: [a0, a1], other: [b0, b1], size, way, apart, along } = pair.pair(*chords);
                 if apart > size + way || pair.same && along < APART * pair.reach {
                     return None;
                 }
@@ -91,97 +136,85 @@ impl Search {
                 let is_apart = (strands.over_bodies)(names, arcs) < APART * pair.reach;
                 (!is_apart).then_some(Crossed { strands: names, arcs })
             };
-            let found = self.chords.found.iter().find_map(crosses);
+            let found = self.halves.found.iter().find_map(crosses);
             if found.is_some() {
                 return found;
             }
         }
         None
     }
-
-    /// Adds two chords that are near each other, if they can touch.
-    fn compare(
-        &mut self,
-        strands: &Strands<'_, '_>,
-        [first, second]: &[Place; 2],
-        pair: &Near<'_>,
-        [i, j]: [usize; 2],
-        near: f64,
-    ) {
-        let ([a, b], reach) = (&pair.pieces, pair.reach);
-        let ChordPair { one: [a0, a1], other: [b0, b1], way, .. } = pair.chords([i, j]);
-        let at = |[x, change]: [Vector3<f64>; 2], share: f64| x + change * share;
-        let segments = |share: f64| ([at(a0, share), at(a1, share)], [at(b0, share), at(b1, share)]);
-        let between = |share: f64| {
-            let (one, other) = segments(share);
-            let (s, t) = closest(one, other);
-            (s, t, one[0] + (one[1] - one[0]) * s - other[0] - (other[1] - other[0]) * t)
-        };
-        let share = if way < FAST * reach { 1.0 } else { touch(|share| between(share).2.norm(), reach, way) };
-        let (s, t, y) = between(share);
-        if y.norm() > reach * (1.0 + near) {
-            return;
-        }
-        // of two chords that share the closest point on b, one has it
-        let last = b.strand.model.ends_contact(second.element) && j + 1 == b.chords;
-        if t >= 1.0 && !last {
-            return;
-        }
-        if t <= 0.0
-            && let Some(previous) = b.before(j)
-            && y.dot(&(at(b0, share) - at(previous, share))) < 0.0
-        {
-            return;
-        }
-        let from = [(i as f64 + s) / a.chords as f64, (j as f64 + t) / b.chords as f64];
-        let xi = refine(a, i, b, from, share);
-        let arcs = [first.from + xi[0] * a.length, second.from + xi[1] * b.length];
-        let strands_of = [first.strand, second.strand];
-        let along = if pair.same { (arcs[0] - arcs[1]).abs() } else { f64::INFINITY };
-        if along.min((strands.over_bodies)(strands_of, arcs)) < APART * reach {
-            return;
-        }
-        // chords that meet in the closest point are one contact: that of the nearest points
-        let same = |other: &Candidate| {
-            other.strands == strands_of
-                && (other.arcs[0] - arcs[0]).abs() + (other.arcs[1] - arcs[1]).abs() < ONE * reach
-        };
-        let known = self.found.iter().position(same);
-        let y = a.at(xi[0], share) - b.at(xi[1], share);
-        if known.is_some_and(|k| self.found[k].distance <= y.norm()) {
-            return;
-        }
-        // beside a crossing the end of a chord is no place of contact
-        let slope = a.slope(xi[0], share);
-        if !a.is_tip(xi[0]) && y.dot(&slope).abs() > TILT * y.norm() * slope.norm() {
-            return;
-        }
-        let normal = y.try_normalize(1e-9 * reach);
-        let candidate = Candidate {
-            strands: strands_of,
-            elements: [first.element, second.element],
-            chords: [i, j],
-            xi,
-            arcs,
-            reach,
-            normal: normal.unwrap_or_else(|| y.try_normalize(0.0).unwrap_or(Vector3::y())),
-            distance: y.norm(),
-        };
-        match known {
-            Some(k) => self.found[k] = candidate,
-            None => self.found.push(candidate),
-        }
-    }
 }
 
-/// Returns two elements, whose chords are compared.
-fn pair<'a>(strands: &Strands<'_, 'a>, own: &[Place; 2]) -> Near<'a> {
-    let [first, second] = own;
-    Near {
-        pieces: own.map(|own| Piece::new((strands.get)(own.strand), own.element)),
-        from: [first.from, second.from],
-        reach: first.radius + second.radius,
-        same: first.strand == second.strand,
+/// Adds two chords that are near each other, if they can touch.
+fn compare(
+    found: &mut Vec<Candidate>,
+    strands: &Strands<'_, '_>,
+    [first, second]: &[Place; 2],
+    pair: &Near<'_, '_>,
+    [i, j]: [usize; 2],
+    near: f64,
+) {
+    let ([a, b], reach) = (&pair.pieces, pair.reach);
+    let ChordPair { one: [a0, a1], other: [b0, b1], way, .. } = pair.pair([i, j]);
+    let at = |[x, change]: [Vector3<f64>; 2], share: f64| x + change * share;
+    let segments = |share: f64| ([at(a0, share), at(a1, share)], [at(b0, share), at(b1, share)]);
+    let between = |share: f64| {
+        let (one, other) = segments(share);
+        let (s, t) = closest(one, other);
+        (s, t, one[0] + (one[1] - one[0]) * s - other[0] - (other[1] - other[0]) * t)
+    };
+    let share = if way < FAST * reach { 1.0 } else { touch(|share| between(share).2.norm(), reach, way) };
+    let (s, t, y) = between(share);
+    if y.norm() > reach * (1.0 + near) {
+        return;
+    }
+    // of two chords that share the closest point on b, one has it
+    let last = b.strand.model.ends_contact(second.element) && j + 1 == b.chords;
+    if t >= 1.0 && !last {
+        return;
+    }
+    if t <= 0.0
+        && let Some(previous) = b.before(j)
+        && y.dot(&(at(b0, share) - at(previous, share))) < 0.0
+    {
+        return;
+    }
+    let from = [(i as f64 + s) / a.chords as f64, (j as f64 + t) / b.chords as f64];
+    let xi = refine(a, i, b, from, share);
+    let arcs = [first.from + xi[0] * a.length, second.from + xi[1] * b.length];
+    let strands_of = [first.strand, second.strand];
+    let along = if pair.same { (arcs[0] - arcs[1]).abs() } else { f64::INFINITY };
+    if along.min((strands.over_bodies)(strands_of, arcs)) < APART * reach {
+        return;
+    }
+    // chords that meet in the closest point are one contact: that of the nearest points
+    let same = |other: &Candidate| {
+        other.strands == strands_of && (other.arcs[0] - arcs[0]).abs() + (other.arcs[1] - arcs[1]).abs() < ONE * reach
+    };
+    let known = found.iter().position(same);
+    let y = a.at(xi[0], share) - b.at(xi[1], share);
+    if known.is_some_and(|k| found[k].distance <= y.norm()) {
+        return;
+    }
+    // beside a crossing the end of a chord is no place of contact
+    let slope = a.slope(xi[0], share);
+    if !a.is_tip(xi[0]) && y.dot(&slope).abs() > TILT * y.norm() * slope.norm() {
+        return;
+    }
+    let normal = y.try_normalize(1e-9 * reach);
+    let candidate = Candidate {
+        strands: strands_of,
+        elements: [first.element, second.element],
+        chords: [i, j],
+        xi,
+        arcs,
+        reach,
+        normal: normal.unwrap_or_else(|| y.try_normalize(0.0).unwrap_or(Vector3::y())),
+        distance: y.norm(),
+    };
+    match known {
+        Some(k) => found[k] = candidate,
+        None => found.push(candidate),
     }
 }
 

@@ -216,6 +216,18 @@ pub fn cases() -> Vec<Case> {
     cases.push(case("crossing", "force over that of beams", Some(1.0), 0.02, force_of_beams));
     cases.push(case("heap", "speed after 5 s, m/s", None, 1e-3, |run| speed_at(5.0, run)));
     cases.push(case("heap", "energy made, share of the first", None, 1e-6, |run| made_by(2.0, run)));
+    let limp = [
+        "cable.rope.points=[[0, 0.02, 0], [0.05, 5.02, 0.01]]",
+        "cable.rope.elements=60",
+        "cable.rope.axial_stiffness=1e4",
+        "cable.rope.bending_stiffness=2e-4",
+        "cable.rope.mass_per_length=0.05",
+    ];
+    cases.push(Case {
+        changed: ", limp, 5 m".to_string(),
+        overrides: limp.map(String::from).to_vec(),
+        ..case("heap", "energy made, share of the first", None, 1e-6, |run| made_by(2.5, run))
+    });
     // a ball that falls through is 20 m away
     cases.push(case("net", "way of the ball from the middle, m", None, 1.5, way_of_the_ball));
     cases.push(case("net", "energy made, share of the first", None, 1e-6, |run| made_by(2.0, run)));
