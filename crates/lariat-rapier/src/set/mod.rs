@@ -226,6 +226,7 @@ impl CableSet {
     /// to. Where bodies of cables touch others, or would fall on them, or cables touch each other,
     /// themselves or bodies that they move, all of the world comes to rest by its motion instead,
     /// from where it is, with friction: [`Equilibrium::relaxed`](crate::Equilibrium::relaxed).
+    /// Slack that lies in a body that it is tied to is turned out of it first, as before a step.
     ///
     /// # Errors
     /// [`Error::Cable`] with [`NoEquilibrium`](lariat_ancf::Error::NoEquilibrium) if an island has
@@ -235,7 +236,7 @@ impl CableSet {
     /// [`Error::CablePassesBodyInStatics`] or [`Error::MovesInStatics`] for a world with contact
     /// that does not come to rest in 30 s, or in which something changes with time;
     /// [`Error::CableTouchesInStatics`] for a cable with contact that would run through a collider;
-    /// [`Error::OtherWorld`]. Set and world are then as before.
+    /// [`Error::OtherWorld`]. Set and world are then as before, but for such slack.
     pub fn equilibrium(&mut self, world: &mut PhysicsWorld) -> Result<Equilibrium, Error> {
         self.equilibrium_under(world, &[])
     }
