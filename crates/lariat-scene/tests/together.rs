@@ -108,3 +108,36 @@ fn the_free_part_of_a_rope_over_a_sheave_lies_on_the_floor() {
     println!("{coarse} m, {fine} m");
     assert!(fine < 1.9 && (coarse - fine).abs() < 0.02 * (2.0 - fine), "{coarse} m, {fine} m");
 }
+
+/// The world bears a rope that it holds and the rope that hangs on it beside an end, within the last element, whichever of both has which name:
+/// one of them keeps their contacts.
+///
+/// *Source.* Balance of forces; the couple of friction between both, which is not in it, is at most mu N r over an element.
+#[test]
+fn the_world_bears_what_hangs_on_a_rope_that_it_holds() {
+    for (held, hung) in [("a", "b"), ("b", "a"), ("held", "hung")] {
+        let contact = "contact = { radius = 0.005, friction = 0.3, cables = true }\ndamping = { axial = 0.01, bending = 0.03 }\n\
+                       integrator = { fidelity = \"game\" }\naxial_stiffness = 1e6\nbending_stiffness = 0.01\nmass_per_length = 0.14\n";
+        let end = |name: &str, at: &str| {
+            format!(
+                "[[attachment]]\nname = \"{name}\"\ncable = \"{held}\"\nat = \"{at}\"\nbody = \"world\"\n[[probe]]\nname = \"{name}\"\nattachment = \"{name}\"\n"
+            )
+        };
+        let run = run(&format!(
+            "duration = 25.0\n[[body]]\nname = \"far\"\nkind = \"fixed\"\nshape = {{ ball = 0.1 }}\nposition = [9.0, 0.0, 0.0]\n\
+             [[cable]]\nname = \"{held}\"\npoints = [[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]]\nelements = 4\n{contact}\
+             [[cable]]\nname = \"{hung}\"\npoints = [[0.42, -0.4, -0.035], [0.42, 0.03, -0.035], [0.42, 0.06, 0.0], [0.42, 0.03, 0.035], [0.42, -0.4, 0.035]]\n\
+             elements = 24\n{contact}{}{}",
+            end("left", "start"),
+            end("right", "end")
+        ));
+        let weight = 0.14 * 9.81 * run.world.cables().iter().map(|cable| cable.length()).sum::<f64>();
+        let mean = |probe: &str| {
+            let forces = column(&run, probe, "fy");
+            forces[forces.len() - 60..].iter().sum::<f64>() / 60.0
+        };
+        let (left, right) = (mean("left"), mean("right"));
+        println!("{held}, {hung}: {left:.4} and {right:.4} N of {weight:.4} N");
+        assert!((left + right + weight).abs() < 0.3 * 1.31 * 0.005 / 0.25 + 1e-3 * weight, "{left} {right} {weight}");
+    }
+}

@@ -6,8 +6,8 @@
 //! f = M q'' - F on the position        m = t x (M q'' - F) of the slope t
 //! ```
 //!
-//! F has the contacts in it, by their mean forces over the last step; the accelerations of a cable
-//! that touches something are means, too.
+//! F has the contacts in it, by their forces at the end of the last step; the accelerations of a
+//! cable that touches something are the means of that step, and before one it is taken to rest.
 //!
 //! # Validity
 //!
@@ -21,6 +21,7 @@ use crate::effect::acts::ForceInput;
 use crate::element::shape::position;
 use crate::error::Error;
 use crate::integrate::Dynamics;
+use crate::state::PairMemory;
 use crate::system::Buffers;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -127,10 +128,11 @@ impl Cable {
     /// Returns what the contacts that the cable knows add to the pull on what holds a node.
     fn pull_of_contacts(&self, node: usize) -> (Vector3<f64>, Vector3<f64>) {
         let (memory, key) = (&self.snapshot.state.memory, self.model.contact_key);
-        let pairs = self.cable_contacts().zip(&memory.pairs).flat_map(|(touch, pair)| {
-            let force = pair.contact.force * pair.contact.direction + pair.contact.friction;
-            let other = (touch.other == key).then(|| (self.model.locate(touch.other_arc_length), -force));
-            [Some((self.model.locate(touch.arc_length), force)), other]
+        let now = self.snapshot.passed_at_start();
+        let pairs = memory.pairs.iter().flat_map(|PairMemory { contact, arcs, passed }| {
+            let force = contact.force * contact.direction + contact.friction;
+            let at = |side: usize| self.model.locate(arcs[side] + (now - passed[side]));
+            [Some((at(0), force)), (contact.obstacle == key).then(|| (at(1), -force))]
         });
         let obstacles = memory.contacts.iter().map(|contact| {
             let force = contact.force * contact.direction + contact.friction;

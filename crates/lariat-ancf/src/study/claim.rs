@@ -45,6 +45,9 @@ pub struct Claim {
     /// True if the steps are limited by the host step rather than the tolerance, so that runs at
     /// two tolerances cannot judge the error in time: a run in shorter equal steps does.
     pub host_step_limits: bool,
+    /// True if runs with shorter steps did not come closer.
+    #[serde(default)]
+    pub steps_apart: bool,
     /// Elements of the cable that has most, in the last run.
     pub elements: usize,
     /// If the limit of elements ended the study: how many that cable would need about, by the order

@@ -2,6 +2,7 @@
 
 use super::CableSet;
 use crate::contact::collider;
+use crate::contact::pull::kept_by_others;
 use crate::contents::rules::{ContactFilter, ContactRules};
 use crate::error::Error;
 use crate::handle::CableHandle;
@@ -58,12 +59,9 @@ impl CableSet {
         let own = self.get(cable)?;
         let handle = |key: u64| self.iter().find(|(_, other)| other.contact_key() == key).map(|(handle, _)| handle);
         let kept = own.cable_contacts().filter_map(|touch| Some((handle(touch.other)?, touch)));
-        let key = own.contact_key();
-        let others = self.iter().filter(|(handle, _)| *handle != cable);
-        let mirrored = others.flat_map(|(handle, other)| {
-            let with = other.cable_contacts().filter(move |touch| touch.other == key);
-            with.map(move |touch| (handle, touch.mirrored(other.contact_key())))
-        });
+        let all = 0..self.contents.cables.len();
+        let mirrored = kept_by_others(&self.contents, all, cable.0 as usize);
+        let mirrored = mirrored.map(|(other, touch)| (CableHandle(other as u32), touch));
         Ok(kept.chain(mirrored).collect())
     }
 }

@@ -43,7 +43,8 @@ pub(super) fn write(contents: &mut Contents, world: &mut PhysicsWorld, solved: S
 pub(super) fn read_forces(contents: &mut Contents, world: &PhysicsWorld) {
     let held: Vec<_> = contents.attachments.iter().map(|(index, a)| (index, a.cable.0 as usize, a.node)).collect();
     for (index, cable, node) in held {
-        let (force, moment) = pull(contents, cable, node);
+        let all = 0..contents.cables.len();
+        let (force, moment) = pull(contents, all, (cable, node));
         let Contents { cables, attachments, records, .. } = &mut *contents;
         let Some(a) = attachments.get_mut(index) else { continue };
         let (Some(slot), Some(body)) = (cables.get(cable), world.bodies.get(a.body)) else { continue };

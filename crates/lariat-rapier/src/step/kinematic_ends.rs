@@ -100,7 +100,7 @@ pub(crate) fn read(contents: &mut Contents, world: &PhysicsWorld, island: &Islan
     for &index in &island.supports {
         let Some(a) = contents.attachments.get(index) else { continue };
         let (cable, node) = (a.cable.0 as usize, a.node);
-        let (force, _) = pull(contents, cable, node);
+        let (force, _) = pull(contents, island.cables.iter().copied(), (cable, node));
         let Some(a) = contents.attachments.get_mut(index) else { continue };
         let Some(slot) = contents.cables.get(cable) else { continue };
         if !world.bodies.contains(a.body) {

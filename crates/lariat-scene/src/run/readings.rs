@@ -5,6 +5,7 @@ use super::balance::Terms;
 use crate::error::Error;
 use crate::physics::BodyState;
 use crate::scene::{AttachmentScene, CableScene};
+use lariat_ancf::contact::PairTouch;
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::integrate::OneStep;
 use lariat_ancf::{Cable, Energy, Momentum, ReasonCounts, Vector3};
@@ -173,16 +174,11 @@ impl World {
         }
         let AttachmentScene { cable, arc_length, .. } = self.scene.attachments[index];
         // a copy, because reading reactions modifies a cable, which wakes it
-        let mut coupled = None;
         let behind_kink = self.scene.attachments[index].other_side_of.is_some();
         let (part, arc_length) = if behind_kink { (cable, 0.0) } else { self.part_of(cable, arc_length) };
-        if self.alone.get(part).is_none() {
-            coupled = Some(self.cables()[part].clone());
-        }
-        let (force, moment) = match (&mut coupled, self.alone.get_mut(part)) {
-            (None, Some(cable)) => pull(cable, arc_length, &[])?,
-            (Some(cable), _) => pull(cable, arc_length, &self.cables())?,
-            _ => Default::default(),
+        let (force, moment) = match self.alone.get_mut(part) {
+            Some(cable) => pull(cable, arc_length, &[])?,
+            None => pull(&mut self.cables()[part].clone(), arc_length, &self.cables())?,
         };
         Ok((force, moment, 0.0))
     }
@@ -193,18 +189,24 @@ fn dissipated(cable: &Cable) -> f64 {
     cable.effect_work().dissipated() + cable.energy_law().dissipated()
 }
 
-/// Returns force (N) and moment (N m) of a cable, among all with which it may have contacts, on its support at an arc length; zero without
-/// one.
+/// Returns force (N) and moment (N m) of a cable on its support at an arc length; zero without one. It is among `all` with which it may have
+/// contacts.
 pub(super) fn pull(cable: &mut Cable, arc_length: f64, all: &[&Cable]) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
     let (node, key) = (cable.node(arc_length)?, cable.contact_key());
+    let others = all.iter().filter(|other| other.contact_key() != key).flat_map(|other| {
+        let kept = other.cable_contacts().filter(|touch| touch.other == key);
+        kept.map(|touch| touch.mirrored(other.contact_key()))
+    });
+    let kept: Vec<PairTouch> = others.collect();
     let Some(held) = cable.reactions()?.into_iter().find(|reaction| reaction.node == node) else {
         return Ok(Default::default());
     };
-    // 0 - 0 is 0, not -0
-    let own = (Vector3::zeros() - held.force, Vector3::zeros() - held.moment);
-    let others = all.iter().filter(|other| other.contact_key() != key).flat_map(|other| {
-        let kept = other.cable_contacts().filter(|touch| touch.other == key);
-        kept.map(|touch| cable.share_of_contact(node, &touch.mirrored(other.contact_key())))
-    });
-    Ok(others.fold(own, |(force, moment), share| (force + share.0, moment + share.1)))
+    if kept.is_empty() {
+        // 0 - 0 is 0, not -0
+        return Ok((Vector3::zeros() - held.force, Vector3::zeros() - held.moment));
+    }
+    // its accelerations are not those of its own forces
+    let own = cable.pull(node);
+    let shares = kept.iter().map(|touch| cable.share_of_contact(node, touch));
+    Ok(shares.fold(own, |(force, moment), share| (force + share.0, moment + share.1)))
 }

@@ -1,6 +1,6 @@
 //! Ropes over sharp edges and facets without friction: what is not as over the smooth body is told.
 
-use lariat_ancf::{Level, Warning as OfCable};
+use lariat_ancf::Warning as OfCable;
 use lariat_scene::run::{Options, Recording, collect};
 use lariat_scene::{Purpose, Scene, Warning};
 use std::f64::consts::{PI, TAU};
@@ -23,12 +23,25 @@ fn rows(run: &Recording, column: &str) -> Vec<[f64; 2]> {
     probe.rows.chunks(probe.columns.len()).map(|row| [row[t], row[x]]).collect()
 }
 
-/// Returns whether it says that its numbers are not right.
+/// Returns whether it says that its contact is not right.
 fn is_told(run: &Recording) -> bool {
-    let told = |warning: &Warning| {
-        warning.level() != Level::Setup || matches!(warning, Warning::Cable(OfCable::Facets { .. }))
-    };
-    run.summary.warnings.iter().any(told)
+    run.summary.warnings.iter().any(|warning| {
+        matches!(
+            warning,
+            Warning::EnergyLost { .. }
+                | Warning::Cable(
+                    OfCable::Facets { .. }
+                        | OfCable::CutShort { .. }
+                        | OfCable::CoarseContact { .. }
+                        | OfCable::PassedThrough { .. }
+                )
+        )
+    })
+}
+
+/// Returns the larger one; NaN if one is.
+fn larger(most: f64, x: f64) -> f64 {
+    if x <= most { most } else { x }
 }
 
 fn is_long() -> bool {
@@ -68,7 +81,7 @@ fn a_chain_off_a_sharp_edge_falls_as_its_cosh_or_tells() {
         let rows = rows(&run, "x");
         let way = |t: f64| hangs * ((t * (G / 2.0).sqrt()).cosh() - 1.0);
         let of = |row: &[f64; 2]| (row[1] - rows[0][1]) / way(row[0]) - 1.0;
-        let worst = rows.iter().filter(|row| row[0] > 0.15).map(|row| of(row).abs()).fold(0.0, f64::max);
+        let worst = rows.iter().filter(|row| row[0] > 0.15).map(|row| of(row).abs()).fold(0.0, larger);
         println!("{elements} elements, {rate} Hz, {radius} m: off by {worst:.3}, {:?}", run.summary.told.len());
         assert!(worst < 0.02 || is_told(&run), "{worst}: {:?}", run.summary.told);
     }
@@ -138,7 +151,8 @@ fn loads_over_facets_fall_as_over_the_cylinder_or_tell() {
             let exact = (loads[0] - loads[1]) * G / (loads[0] + loads[1] + mass * (1.2 + PI * 0.105));
             let off = fall / exact - 1.0;
             println!("{loads:?} kg over {shape}: {fall:.3} of {exact:.3} m/s^2, told {}", is_told(&run));
-            assert!(off.abs() < 0.02 || is_told(&run), "{shape}: {off}: {:?}", run.summary.told);
+            let may = *turned || !is_told(&run);
+            assert!(off.abs() < 0.02 || !may, "{shape}: {off}: {:?}", run.summary.told);
         }
     }
 }

@@ -27,10 +27,10 @@ use core::ops::Range;
 use nalgebra::Vector3;
 
 /// Two elements, of which chords can touch.
-pub(super) struct Near<'a, 'p> {
+pub(super) struct Near<'a> {
     pub pieces: [Piece<'a>; 2],
-    /// Their chords.
-    pub chords: [&'p [Chord]; 2],
+    /// Where their chords are in the list.
+    pub slots: [usize; 2],
     /// Arc lengths in m at which they begin.
     pub from: [f64; 2],
     /// Sum of the radii in m.
@@ -65,21 +65,44 @@ pub(super) struct ChordPair {
     pub along: f64,
 }
 
-/// Adds the chords of an element.
-pub(super) fn chords(piece: &Piece<'_>, into: &mut Vec<Chord>) {
-    let mut start = piece.place(0.0);
-    for end in 1..=piece.chords {
-        let ends = [start, piece.place(end as f64 / piece.chords as f64)];
-        let [[a, da], [b, db]] = ends;
-        into.push(Chord { ends, middle: 0.5 * (a + b), half: 0.5 * (b - a).norm(), way: da.norm().max(db.norm()) });
-        start = ends[1];
+/// The chords that were asked for in a search.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Chords {
+    /// By slot, where a chord is in the list, and one more; 0 of one that was not asked for.
+    slots: Vec<usize>,
+    list: Vec<Chord>,
+}
+
+impl Chords {
+    pub fn clear(&mut self) {
+        self.slots.clear();
+        self.list.clear();
+    }
+
+    /// Returns the first of a number of new slots.
+    pub fn reserve(&mut self, count: usize) -> usize {
+        let first = self.slots.len();
+        self.slots.resize(first + count, 0);
+        first
+    }
+
+    /// Returns a chord of one of two elements.
+    fn of(&mut self, near: &Near<'_>, k: usize, chord: usize) -> Chord {
+        let slot = &mut self.slots[near.slots[k] + chord];
+        if *slot == 0 {
+            let ends = [near.place(k, chord), near.place(k, chord + 1)];
+            let [[a, da], [b, db]] = ends;
+            let (half, way) = (0.5 * (b - a).norm(), da.norm().max(db.norm()));
+            self.list.push(Chord { ends, middle: 0.5 * (a + b), half, way });
+            *slot = self.list.len();
+        }
+        self.list[*slot - 1]
     }
 }
 
-impl Near<'_, '_> {
-    /// Returns the ends of a part of an element.
-    fn ends(&self, k: usize, part: &Range<usize>) -> [[Vector3<f64>; 2]; 2] {
-        [self.chords[k][part.start].ends[0], self.chords[k][part.end - 1].ends[1]]
+impl Near<'_> {
+    fn place(&self, k: usize, chord: usize) -> [Vector3<f64>; 2] {
+        self.pieces[k].place(chord as f64 / self.pieces[k].chords as f64)
     }
 
     fn arc(&self, k: usize, chord: usize, at: f64) -> f64 {
@@ -93,14 +116,19 @@ impl Near<'_, '_> {
     }
 
     /// Returns whether two chords are further apart than both move, whatever their directions.
-    fn are_far(&self, [i, j]: [usize; 2]) -> bool {
-        let (a, b) = (&self.chords[0][i], &self.chords[1][j]);
+    fn are_far(&self, a: &Chord, b: &Chord) -> bool {
         let reach = a.half + b.half + a.way + b.way + self.reach * (1.0 + NEAR_PAIR);
         (a.middle - b.middle).norm_squared() > ROUNDED * reach * reach
     }
 
-    pub fn pair(&self, [i, j]: [usize; 2]) -> ChordPair {
-        let (one, other) = (self.chords[0][i].ends, self.chords[1][j].ends);
+    /// Returns two chords by their numbers.
+    pub fn pair(&self, chords: &mut Chords, [i, j]: [usize; 2]) -> ChordPair {
+        let [one, other] = [(0, i), (1, j)].map(|(k, chord)| chords.of(self, k, chord));
+        self.pair_of([i, j], &one, &other)
+    }
+
+    fn pair_of(&self, [i, j]: [usize; 2], one: &Chord, other: &Chord) -> ChordPair {
+        let (one, other) = (one.ends, other.ends);
         let ([a0, a1], [b0, b1]) = (one, other);
         let relative = |p: [Vector3<f64>; 2], q: [Vector3<f64>; 2]| (p[1] - q[1]).norm();
         let way = relative(a0, b0).max(relative(a0, b1)).max(relative(a1, b0)).max(relative(a1, b1));
@@ -127,7 +155,7 @@ pub(super) struct Halves {
 impl Halves {
     /// Finds the chords of two elements that are near each other at some time of the step, and
     /// returns the number of tests.
-    pub fn find(&mut self, near: &Near<'_, '_>) -> u64 {
+    pub fn find(&mut self, near: &Near<'_>, store: &mut Chords) -> u64 {
         self.found.clear();
         self.open.clear();
         self.open.push(near.pieces.map(|piece| 0..piece.chords));
@@ -145,11 +173,13 @@ impl Halves {
             if few {
                 tests += (one.len() * other.len()) as u64;
                 for i in one {
+                    let first = store.of(near, 0, i);
                     for j in other.clone() {
-                        if near.are_far([i, j]) {
+                        let second = store.of(near, 1, j);
+                        if near.are_far(&first, &second) {
                             continue;
                         }
-                        let chords = near.pair([i, j]);
+                        let chords = near.pair_of([i, j], &first, &second);
                         let is_near = chords.apart <= chords.size + chords.way + near.reach * (1.0 + NEAR_PAIR);
                         if is_near && !near.is_joined(&chords) {
                             self.found.push([i, j]);
@@ -171,11 +201,11 @@ impl Halves {
     }
 }
 
-impl Near<'_, '_> {
+impl Near<'_> {
     /// Returns whether parts of the elements hold no chords that are near each other; `bends` are
     /// the largest second derivatives of both elements.
     fn are_apart(&self, parts: [&Range<usize>; 2], bends: &[[f64; 2]; 2]) -> bool {
-        let ends = [0, 1].map(|k| self.ends(k, parts[k]));
+        let ends = [0, 1].map(|k| [self.place(k, parts[k].start), self.place(k, parts[k].end)]);
         let sagitta = |k: usize, of: usize| {
             let length = parts[k].len() as f64 * self.pieces[k].length / self.pieces[k].chords as f64;
             0.125 * length * length * bends[k][of]
@@ -242,18 +272,14 @@ mod tests {
             let strand =
                 Strand { key: 1, model, q: &q, change: &change, velocity: &[], memory: &[], damped: 0.0, passed: 0.0 };
             let pieces = [Piece::new(strand, 0), Piece::new(strand, 1)];
-            let all = pieces.map(|piece| {
-                let mut own = Vec::new();
-                chords(&piece, &mut own);
-                own
-            });
-            let [one, other] = &all;
-            let near = Near { pieces, chords: [one, other], from: [0.0, 1.0], reach: 0.04, same: round % 2 == 0 };
-            tests += halves.find(&near);
+            let mut store = Chords::default();
+            let slots = pieces.map(|piece| store.reserve(piece.chords));
+            let near = Near { pieces, slots, from: [0.0, 1.0], reach: 0.04, same: round % 2 == 0 };
+            tests += halves.find(&near, &mut store);
             let mut expected = Vec::new();
             for i in 0..pieces[0].chords {
                 for j in 0..pieces[1].chords {
-                    let chords = near.pair([i, j]);
+                    let chords = near.pair(&mut store, [i, j]);
                     let reach = chords.size + chords.way + near.reach * (1.0 + NEAR_PAIR);
                     if chords.apart <= reach && !near.is_joined(&chords) {
                         expected.push([i, j]);

@@ -15,10 +15,9 @@
 use super::boxes::{Boxes, Place};
 use super::chords::{Piece, closest, refine};
 use super::crossing::crossing;
-use super::halves::{Chord, ChordPair, Halves, Near, chords};
+use super::halves::{ChordPair, Chords, Halves, Near};
 use super::strands::Strands;
 use crate::scales::contact::{ADVANCES, APART, FAST, LEAST_ADVANCE, ONE, TILT};
-use core::ops::Range;
 use nalgebra::Vector3;
 
 /// Chords that can touch, with the closest points.
@@ -45,53 +44,13 @@ pub(crate) struct Crossed {
     pub arcs: [f64; 2],
 }
 
-/// The chords of those elements that were asked for, by strand and element.
-#[derive(Clone, Debug, Default)]
-struct Chords {
-    /// Where those of an element begin, and one more; 0 of one that was not asked for.
-    begin: Vec<Vec<usize>>,
-    list: Vec<Chord>,
-}
-
-impl Chords {
-    fn clear(&mut self, strands: &Strands<'_, '_>) {
-        self.list.clear();
-        self.begin.resize_with(strands.count, Vec::new);
-        for (strand, begin) in self.begin.iter_mut().enumerate() {
-            begin.clear();
-            begin.resize((strands.get)(strand).model.elements.len(), 0);
-        }
-    }
-
-    /// Returns where those of an element are in the list.
-    fn of(&mut self, strand: usize, piece: &Piece<'_>) -> Range<usize> {
-        let begin = &mut self.begin[strand][piece.element];
-        if *begin == 0 {
-            *begin = self.list.len() + 1;
-            chords(piece, &mut self.list);
-        }
-        *begin - 1..*begin - 1 + piece.chords
-    }
-
-    /// Returns two elements, whose chords are compared.
-    fn pair<'a>(&mut self, strands: &Strands<'_, 'a>, own: &[Place; 2]) -> Near<'a, '_> {
-        let [first, second] = own;
-        let pieces = own.map(|own| Piece::new((strands.get)(own.strand), own.element));
-        let [a, b] = [0, 1].map(|k| self.of(own[k].strand, &pieces[k]));
-        Near {
-            pieces,
-            chords: [&self.list[a], &self.list[b]],
-            from: [first.from, second.from],
-            reach: first.radius + second.radius,
-            same: first.strand == second.strand,
-        }
-    }
-}
-
 /// Buffers of the search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Search {
     elements: Boxes,
+    /// By strand and element, where its chords are in the list, and one more; 0 if that is not
+    /// said.
+    slots: Vec<Vec<usize>>,
     chords: Chords,
     halves: Halves,
     /// Number of tests of whether pieces of cables are near each other.
@@ -104,14 +63,41 @@ impl Search {
     pub fn run(&mut self, strands: &Strands<'_, '_>, near: f64) {
         self.found.clear();
         self.find_near(strands);
-        self.chords.clear(strands);
-        for own in &self.elements.near {
-            let pair = self.chords.pair(strands, own);
-            self.tests += self.halves.find(&pair);
-            for chords in &self.halves.found {
-                compare(&mut self.found, strands, own, &pair, *chords, near);
+        self.forget(strands);
+        for k in 0..self.elements.near.len() {
+            let own = self.elements.near[k];
+            let pair = self.pair(strands, &own);
+            self.tests += self.halves.find(&pair, &mut self.chords);
+            for found in &self.halves.found {
+                let chords = pair.pair(&mut self.chords, *found);
+                compare(&mut self.found, strands, &own, (&pair, *found, &chords), near);
             }
         }
+    }
+
+    /// Forgets all chords.
+    fn forget(&mut self, strands: &Strands<'_, '_>) {
+        self.chords.clear();
+        self.slots.resize_with(strands.count, Vec::new);
+        for (strand, slots) in self.slots.iter_mut().enumerate() {
+            slots.clear();
+            slots.resize((strands.get)(strand).model.elements.len(), 0);
+        }
+    }
+
+    /// Returns two elements, whose chords are compared.
+    fn pair<'a>(&mut self, strands: &Strands<'_, 'a>, own: &[Place; 2]) -> Near<'a> {
+        let [first, second] = own;
+        let pieces = own.map(|own| Piece::new((strands.get)(own.strand), own.element));
+        let slots = [0, 1].map(|k| {
+            let slot = &mut self.slots[own[k].strand][own[k].element];
+            if *slot == 0 {
+                *slot = self.chords.reserve(pieces[k].chords) + 1;
+            }
+            *slot - 1
+        });
+        let (from, reach) = ([first.from, second.from], first.radius + second.radius);
+        Near { pieces, slots, from, reach, same: first.strand == second.strand }
     }
 
     /// Finds the elements that are near each other at some time of the step.
@@ -121,13 +107,15 @@ impl Search {
 
     /// Returns the first place found where centre lines go through each other in the step.
     pub fn crossing(&mut self, strands: &Strands<'_, '_>) -> Option<Crossed> {
-        self.chords.clear(strands);
-        for own in &self.elements.near {
-            let pair = self.chords.pair(strands, own);
-            self.tests += self.halves.find(&pair);
+        self.forget(strands);
+        for k in 0..self.elements.near.len() {
+            let own = self.elements.near[k];
+            let pair = self.pair(strands, &own);
+            self.tests += self.halves.find(&pair, &mut self.chords);
             let names = own.map(|own| own.strand);
             let crosses = |chords: &[usize; 2]| -> Option<Crossed> {
-                let ChordPair { one: [a0, a1], other: [b0, b1], size, way, apart, along } = pair.pair(*chords);
+                let ChordPair { one: [a0, a1], other: [b0, b1], size, way, apart, along } =
+                    pair.pair(&mut self.chords, *chords);
                 if apart > size + way || pair.same && along < APART * pair.reach {
                     return None;
                 }
@@ -150,12 +138,11 @@ fn compare(
     found: &mut Vec<Candidate>,
     strands: &Strands<'_, '_>,
     [first, second]: &[Place; 2],
-    pair: &Near<'_, '_>,
-    [i, j]: [usize; 2],
+    (pair, [i, j], chords): (&Near<'_>, [usize; 2], &ChordPair),
     near: f64,
 ) {
     let ([a, b], reach) = (&pair.pieces, pair.reach);
-    let ChordPair { one: [a0, a1], other: [b0, b1], way, .. } = pair.pair([i, j]);
+    let ChordPair { one: [a0, a1], other: [b0, b1], way, .. } = *chords;
     let at = |[x, change]: [Vector3<f64>; 2], share: f64| x + change * share;
     let segments = |share: f64| ([at(a0, share), at(a1, share)], [at(b0, share), at(b1, share)]);
     let between = |share: f64| {

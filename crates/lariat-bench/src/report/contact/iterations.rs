@@ -55,16 +55,17 @@ impl Counts {
 
     /// Adds what a world takes to a time in s.
     fn add(&mut self, world: &mut World, dt: f64, until: f64) -> Result<(), Error> {
-        // the cables of an island share theirs
-        let taken = |world: &World| {
+        let taken = |world: &World| -> Vec<[u64; 2]> {
             let all = world.cables().into_iter().map(|cable| cable.diagnostics());
-            all.map(|own| [own.newton_iterations, own.factorisations]).fold([0; 2], |most, own| most.max(own))
+            all.map(|own| [own.newton_iterations, own.factorisations]).collect()
         };
         let mut before = taken(world);
         for step in 1..=(until / dt).round() as u32 {
             world.advance(f64::from(step) * dt)?;
             let now = taken(world);
-            self.0.push([0, 1].map(|k| now[k] - before[k]));
+            // the cables of an island share theirs
+            let each = now.iter().zip(&before).map(|(now, before)| [0, 1].map(|k| now[k] - before[k]));
+            self.0.push(each.fold([0; 2], |most, own| [0, 1].map(|k| most[k].max(own[k]))));
             before = now;
         }
         Ok(())
