@@ -57,7 +57,8 @@ impl Cable {
         self.refresh_memory();
         let memory = &self.snapshot.state.memory;
         let mut acceleration = memory.acceleration.clone();
-        if !memory.valid && !(memory.contacts.is_empty() && memory.pairs.is_empty()) {
+        let touches = !(memory.contacts.is_empty() && memory.pairs.is_empty());
+        if touches && !memory.valid {
             acceleration = vec![0.0; n];
             if let Some(step) = memory.differences.length() {
                 acceleration.iter_mut().zip(&memory.differences.velocity).for_each(|(a, v)| *a = v / step);

@@ -144,8 +144,7 @@ fn what_holds_a_rope_bears_what_hangs_on_it() {
         (0..2400).for_each(|_| cables.step(&mut world).unwrap());
         let [one, other] = ends.map(|end| cables.attachment(end).unwrap().reading().force);
         let [weight, load] = [held, hung].map(|cable| 0.14 * 9.81 * cables.get(cable).unwrap().length());
-        let where_it_hangs = f64::from(at);
-        let share = 0.5 * weight + load * (0.5 + where_it_hangs);
+        let share = 0.5 * weight + load * (0.5 + at);
         println!("{elements} elements, at {at} m: {one:.4?} and {other:.4?} N of {weight} and {load} N");
         let couple = 0.5 * load * RADIUS * elements as f64;
         assert!(((one + other).y + weight + load).abs() < couple, "{one} {other}");
