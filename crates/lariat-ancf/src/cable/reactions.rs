@@ -21,7 +21,7 @@ use crate::effect::acts::ForceInput;
 use crate::element::shape::position;
 use crate::error::Error;
 use crate::integrate::Dynamics;
-use crate::state::PairMemory;
+use crate::state::{ContactMemory, PairMemory};
 use crate::system::Buffers;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -131,14 +131,12 @@ impl Cable {
         let (memory, key) = (&self.snapshot.state.memory, self.model.contact_key);
         let now = self.snapshot.passed_at_start();
         let pairs = memory.pairs.iter().flat_map(|PairMemory { contact, arcs, passed }| {
-            let force = contact.force * contact.direction + contact.friction;
+            let force = contact.force_on_cable();
             let at = |side: usize| self.model.locate(arcs[side] + (now - passed[side]));
             [Some((at(0), force)), (contact.obstacle == key).then(|| (at(1), -force))]
         });
-        let obstacles = memory.contacts.iter().map(|contact| {
-            let force = contact.force * contact.direction + contact.friction;
-            ((contact.element as usize, contact.xi), force)
-        });
+        let place = |contact: &ContactMemory| (contact.element as usize, contact.xi);
+        let obstacles = memory.contacts.iter().map(|contact| (place(contact), contact.force_on_cable()));
         let shares = obstacles.chain(pairs.flatten()).map(|(at, force)| self.share(node, at, &force));
         shares.fold(Default::default(), |sum, share| (sum.0 + share.0, sum.1 + share.1))
     }

@@ -62,6 +62,11 @@ impl ContactMemory {
         (self.element, self.obstacle, self.place)
     }
 
+    /// Returns the force on the cable in N, friction and all.
+    pub(crate) fn force_on_cable(&self) -> Vector3<f64> {
+        self.force * self.direction + self.friction
+    }
+
     pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
         let element = self.element as usize;
         require("element of a contact", element as f64, element < elements, "one of the cable")?;

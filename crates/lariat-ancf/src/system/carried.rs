@@ -202,7 +202,7 @@ impl Reading<'_> {
         }
         for touch in contacts.iter().filter(|touch| touch.element as usize == e) {
             let weights = shape::position(touch.xi, length);
-            add_force(&mut force, 0, &weights, &(touch.force * touch.direction + touch.friction));
+            add_force(&mut force, 0, &weights, &touch.force_on_cable());
         }
         force
     }

@@ -5,7 +5,7 @@ use lariat_ancf::contact::{HalfSpace, Obstacle};
 use lariat_ancf::coupling::Coupling;
 use lariat_ancf::{At, Cable, Contact, Motion, Section, Vector3};
 
-/// A rope of 1 kg/m from a pin at a height in radii to a floor, its weight in N, and its friction.
+/// A rope of 1 kg/m from a pin at a height in radii to a floor, and what bears its weight in N.
 fn pinned(elements: usize, height: f64) -> (Cable, Vector3<f64>) {
     let ends = [up() * (height * RADIUS), Vector3::new(1.0, RADIUS, 0.0)];
     let mut cable = Cable::builder()

@@ -98,14 +98,11 @@ pub(crate) fn prescribe(
 /// Reads force, gap and work at the supported nodes of an island after a step.
 pub(crate) fn read(contents: &mut Contents, world: &PhysicsWorld, island: &Island) {
     for &index in &island.supports {
-        let Some(a) = contents.attachments.get(index) else { continue };
+        let Some(a) = contents.attachments.get(index).filter(|a| world.bodies.contains(a.body)) else { continue };
         let (cable, node) = (a.cable.0 as usize, a.node);
         let (force, _) = pull(contents, island.cables.iter().copied(), (cable, node));
         let Some(a) = contents.attachments.get_mut(index) else { continue };
         let Some(slot) = contents.cables.get(cable) else { continue };
-        if !world.bodies.contains(a.body) {
-            continue;
-        }
         let (origin, attitude) = contents.records.place(world, a.body);
         let anchor = origin + attitude * a.anchor;
         let mean = 0.5 * (a.reading.force + force);

@@ -66,7 +66,8 @@ fn chain(elements: usize, rate: f64, radius: f64, hangs: f64) -> String {
 
 /// A chain that slides off a table over its sharp edge does as the chain that nothing brakes, or tells.
 ///
-/// *Source.* `x = x_0 (cosh(t sqrt(g/L)) - 1)`, while it is held down at the edge (Levi-Civita & Amaldi 1927).
+/// *Source.* Newton's second law, `L x'' = g x` for the length x that hangs: it grows by `x_0 (cosh(t sqrt(g/L)) - 1)`, as long as the chain
+/// presses on the edge, `2 x^2 - L x <= x_0^2`.
 #[test]
 fn a_chain_off_a_sharp_edge_falls_as_its_cosh_or_tells() {
     let cases = [

@@ -91,7 +91,8 @@ fn throw(seed: u64, mesh: &Path) -> String {
     let random = Recipe::from_seed(seed);
     let [radius, stiffness] = [random.power(0, -2.52, -1.52), random.power(1, 3.0, 6.0)];
     let at = |k: usize, scale: f64| scale * random.signed(k);
-    let shape = match random.choose(2, 4) {
+    let kind = random.choose(2, 4);
+    let shape = match kind {
         0 => "{ cuboid = [0.2, 0.2, 0.2] }".to_string(),
         1 => "{ cylinder = [1.0, 0.1] }".to_string(),
         2 => format!("{{ mesh = {:?} }}", mesh.display().to_string()),
@@ -105,8 +106,8 @@ fn throw(seed: u64, mesh: &Path) -> String {
          [[cable]]\nname = \"rope\"\npoints = [[-0.6, 0.9, {:?}], [0.6, 0.9, {:?}]]\nelements = {}\naxial_stiffness = {stiffness:?}\n\
          bending_stiffness = {:?}\nmass_per_length = 0.1\ndamping = {{ axial = 1e-3, bending = 1e-3 }}\nintegrator = {{ fidelity = \"game\" }}\n\
          contact = {{ radius = {radius:?}, friction = {friction:?} }}\nvelocity = {velocity:?}\nangular_velocity = [0.0, {:?}, {:?}]\n",
-        if random.choose(2, 4) == 3 { 0.0 } else { at(7, 0.5) },
-        if random.choose(2, 4) == 3 { 0.0 } else { at(8, 0.5) },
+        if kind == 3 { 0.0 } else { at(7, 0.5) },
+        if kind == 3 { 0.0 } else { at(8, 0.5) },
         at(9, 0.1),
         at(10, 0.1),
         12 + random.choose(11, 28),
